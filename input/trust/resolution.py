@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Calibrates the expected errors of boundary elements: the constants error_factor of
-src/contact/quantities.cpp, and those of stresses in src/trust/grid_error.cpp.
+src/contact/quantities.cpp, and those of stresses in src/physics/stress/stress_row.cpp.
 
     resolution.py solve [--first K] [--last K]    solves bodies on their grid and on one four times
                                                   finer (slow; finished bodies are skipped)

@@ -169,7 +169,7 @@ int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0) {
         // computed before.
         if (contact->path.path_dependent() && contact->path.level()) {
             LevelSource source = source_of(*contact);
-            compute_quantities(source, Stage::solution);
+            compute_quantities(source);
         }
         contact->path.move_tip(place.x, place.y);
     });

@@ -43,6 +43,7 @@ LevelSource source_of(rsc_contact& contact) {
     return {contact.path,
             *contact.path.level(),
             {resistivity[0], resistivity[1]},
+            &contact.options.physics,
             contact.on->points.get()};
 }
 

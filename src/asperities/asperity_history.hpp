@@ -27,6 +27,7 @@ public:
     // at its end; the sum of the loads that earlier levels leave, and the deflection by them, which
     // is subtracted from g0 of the candidates; and History::lasting_loads().
     virtual void step(double) {}
+    virtual double shortest_time() const { return kInfinity; }  // of relaxation
     virtual double scale() const { return 1; }
     virtual double rest() const { return 0; }
     virtual void lower(Candidates&, Products&) {}

@@ -218,7 +218,7 @@ void AsperityModel::accept(Level& level) {
 
 History* AsperityModel::history() { return impl_->law->memory() ? this : nullptr; }
 
-double AsperityModel::shortest_time() const { return impl_->options.physics.relaxation.shortest(); }
+double AsperityModel::shortest_time() const { return impl_->history->shortest_time(); }
 
 void AsperityModel::step(double dt, double) { impl_->history->step(dt); }
 

@@ -13,8 +13,7 @@ struct Job;
 
 thread_local int loop_threads = 0;        // number set by LoopThreads
 thread_local const Job* piece = nullptr;  // the loop of which this thread runs a piece
-thread_local LoopProfile* profile = nullptr;
-std::atomic<bool> forked{false};  // true in a forked child, which has no pool threads
+std::atomic<bool> forked{false};          // true in a forked child, which has no pool threads
 
 // Number of processors that this process may use: batch systems bind jobs, and MPI its ranks, to
 // some of those of the machine.
@@ -159,10 +158,6 @@ LoopThreads::~LoopThreads() { loop_threads = before_; }
 
 void parallel_pieces(std::size_t count, int threads,
                      const std::function<void(std::size_t, std::size_t)>& body) {
-    if (profile) {
-        profile->run(count, body);
-        return;
-    }
     const std::size_t team = std::min(count, most_threads(threads));
     if (team < 2 || (piece && piece->tree.helpers == 0) || forked ||
         (omp_in_parallel && omp_in_parallel())) {
@@ -192,45 +187,6 @@ void parallel_pieces(std::size_t count, int threads,
     pool.left.wait(lock, [&] { return job.inside == 0; });
     lock.unlock();
     if (job.thrown) std::rethrow_exception(job.thrown);
-}
-
-LoopProfile::LoopProfile(std::vector<int> cores)
-    : cores_(std::move(cores)), sums_{0, std::vector<double>(cores_.size(), 0.0)} {
-    profile = this;
-}
-LoopProfile::~LoopProfile() { profile = nullptr; }
-
-void LoopProfile::run(std::size_t count,
-                      const std::function<void(std::size_t, std::size_t)>& body) {
-    // Processor time: on a busy machine the time on the wall tells nothing.
-    const auto now = [] {
-        timespec t{};
-        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-        return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-    };
-    const Sums zero{0, std::vector<double>(cores_.size(), 0.0)};
-    Sums outer = std::exchange(sums_, zero);
-    std::vector<double> pieces(count), longest(cores_.size(), 0.0);
-    loops_ += depth_++ == 0;
-    double start = now();
-    for (std::size_t k = 0; k < count; ++k) {
-        body(k, 0);
-        const double end = now();
-        pieces[k] = end - std::exchange(start, end);
-        for (std::size_t c = 0; c < cores_.size(); ++c)
-            longest[c] = std::max(longest[c], pieces[k] - sums_.seconds + sums_.shared[c]);
-        sums_ = zero;
-    }
-    --depth_;
-    const double all = sum_of(pieces);
-    outer.seconds += all;
-    for (std::size_t c = 0; c < cores_.size(); ++c) {
-        std::vector<double> busy(at(cores_[c]), 0.0);
-        for (const double piece : pieces) *std::ranges::min_element(busy) += piece;
-        // Cores without a piece share the loops inside those of others.
-        outer.shared[c] += std::min(std::ranges::max(busy), std::max(all / cores_[c], longest[c]));
-    }
-    sums_ = std::move(outer);
 }
 
 namespace {

@@ -83,33 +83,6 @@ void find_all(std::size_t n, int grain, int threads, Test&& test, std::vector<in
     found.erase(to, found.end());
 }
 
-// Counts the parallel loops of this thread during its lifetime, which it runs on this thread, and
-// what they would take on more cores if nothing else limited them: each core takes the next piece
-// as soon as it is free, and shares the loops inside pieces when there is none. A loop must not
-// throw.
-class LoopProfile {
-public:
-    explicit LoopProfile(std::vector<int> cores);
-    LoopProfile(const LoopProfile&) = delete;
-    LoopProfile& operator=(const LoopProfile&) = delete;
-    ~LoopProfile();
-    long loops() const { return loops_; }                            // the outermost ones
-    double seconds() const { return sums_.seconds; }                 // on this thread
-    double seconds(std::size_t k) const { return sums_.shared[k]; }  // on the k-th number of cores
-
-    void run(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body);
-
-private:
-    struct Sums {
-        double seconds;
-        std::vector<double> shared;
-    };
-    std::vector<int> cores_;
-    Sums sums_;
-    long loops_ = 0;
-    int depth_ = 0;
-};
-
 // Long loops check regularly whether they must stop.
 
 // During its lifetime, stopping_point() on this thread calls `ask` at most every 50 ms; `ask`

@@ -142,7 +142,7 @@ struct Case {
         std::vector<double> pdf_levels = {2.0, 2.5, 3.0};
         int pdf_bins = 60;
         int compression = 4;
-        std::vector<double> fields;        // numbers of kFieldNames; empty: none
+        std::vector<double> fields;        // numbers of field_names(); empty: none
         std::vector<double> field_levels;  // in `unit` of the indentation; empty: the last level
         std::optional<double> field_window[4];  // x0, x1, y0, y1; default: about the contact
         StressDepths automatic_depths = StressDepths::none;

@@ -64,7 +64,6 @@ ModelChoice model_of(const Case& c) {
     for (const Physics* p : physics_asked(c))
         if (const char* const why = p->needs_elements ? p->needs_elements(c) : ""; *why)
             return {ModelKind::elements, why};
-    if (c.output.flow) return {ModelKind::elements, "output%flow needs them"};
     if (least_stated_error(c.asperities.law) > kAcceptableError)
         return {ModelKind::elements,
                 "asperities have a stated error of N above 5 % at every level; for many levels or "

@@ -1,7 +1,6 @@
 #include "case/registry.hpp"
 
 #include "base/error.hpp"
-#include "observe/fields.hpp"
 #include "physics/indenter/shapes.hpp"
 #include "physics/physics.hpp"
 
@@ -283,10 +282,7 @@ std::vector<Key> keys_of_output() {
                "levels whose contacts are written; auto: all levels of a single realization, none "
                "of a campaign"),
         number(RSC_KEY(output, heights), "", kAny, "write the height map to the result"),
-        number(RSC_KEY(output, flow), "", kAny,
-               "permeability of the gap between two flats at each level, by elements with boundary "
-               "= 'periodic'"),
-        words(choice(RSC_KEY(output, fields), kFieldNames,
+        words(choice(RSC_KEY(output, fields), field_names(),
                      "quantities to write at the points of the surface, for a single realization. "
                      "Elements: the pressure and gap of the solution. Asperities: "
                      "the pressure in their contact spots, and the gap that follows from it")),
@@ -296,16 +292,6 @@ std::vector<Key> keys_of_output() {
         number(RSC_KEY(output, field_window), "length", kAny,
                "x0, x1, y0, y1 of the region in which fields are written",
                "a region around the contact at these levels; two flats: the whole surface"),
-        or_word(
-            kStressDepthsNames, [](Case& c) { return slot_of(c.output.automatic_depths); },
-            list(RSC_KEY(output, stress_depths), 1000, "length", kNotNegative, "",
-                 "depths below the surface of body 1 at which the largest stresses of each level "
-                 "are computed. auto: 0 and 15 depths from a step between points to a quarter of "
-                 "the surface")),
-        number(RSC_KEY(output, sliding_direction), "degree", between(-360, 360),
-               "direction from the x axis in which body 2 slides over body 1: the stresses below "
-               "include those of the friction, mu times the pressure",
-               "the bodies do not slide"),
         number(RSC_KEY(output, map_cells), "1", between(1, 4096),
                "cells along a side of the coarse maps"),
         number(RSC_KEY(output, radial_bins), "1", between(1, 100000),

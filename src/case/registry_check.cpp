@@ -4,8 +4,6 @@
 #include "case/case.hpp"
 #include "case/registry.hpp"
 #include "case/units.hpp"
-#include "observe/fields.hpp"
-#include "physics/flow/permeability.hpp"
 #include "physics/indenter/shapes.hpp"
 #include "physics/physics.hpp"
 #include "surface/asperities.hpp"
@@ -44,9 +42,7 @@ public:
         check_indenter();
         check_levels();
         check_boundary();
-        check_flow();
-        check_stresses();
-        check_tractions();
+        check_fields();
         check_sizes();
         return std::move(problems_);
     }
@@ -422,57 +418,13 @@ private:
                 "'elements', which is valid up to full contact");
     }
 
-    void check_flow() {
-        const Case::Output& o = c_.output;
-        const bool field = std::ranges::count(o.fields, double(Field::flow)) > 0;
-        require(!field || o.flow, {"output%fields", "output%flow"},
-                "'flow' needs output%flow = .true.");
-        if (!o.flow) return;
-        require(c_.indentation.boundary == Boundary::periodic,
-                {"output%flow", "indentation%boundary"},
-                "fluid flows through the gap of two flats, whose surface is periodic; give "
-                "boundary = 'periodic' and R = Infinity, Infinity");
-        require(elements_, {"output%flow", "solver%model"},
-                "asperities have no gap between them; use model = 'elements'");
-        require(has_permeability(), {"output%flow"},
-                "this rsc was built without CHOLMOD (Debian: libsuitesparse-dev), which solves for "
-                "the flow");
-    }
-
-    void check_stresses() {
-        const Case::Output& o = c_.output;
-        const bool field = std::ranges::any_of(
-            o.fields, [](double f) { return is_stress(static_cast<Field>(f)); });
-        require(!field || o.stresses(), {"output%fields", "output%stress_depths"},
-                "stresses are computed at the depths of output%stress_depths; give some");
-        require(!o.sliding_direction || o.stresses(),
-                {"output%sliding_direction", "output%stress_depths"},
-                "it is for the stresses at output%stress_depths; give some");
-        if (!o.stresses()) return;
-        require(std::ranges::is_sorted(o.stress_depths, std::less_equal<>()),
-                {"output%stress_depths"}, "must increase");
-        require(c_.solids.layer_thickness.empty(),
-                {"output%stress_depths", "solids%layer_thickness"},
-                "stresses below the surface are not available in layers");
-        require(std::isfinite(c_.solids.E[0]), {"output%stress_depths", "solids%E"},
-                "stresses are those of body 1, which is rigid here; give the elastic body first");
-        require(elements_ || !any_physics(c_, &Physics::pulls),
-                {"output%stress_depths", "solver%model"},
-                "with adhesion stresses are available for model = 'elements'");
-        if (!o.sliding_direction) return;
-        require(c_.solids.friction > 0, {"output%sliding_direction", "solids%friction"},
-                "needs solids%friction > 0");
-        require(elements_, {"output%sliding_direction", "solver%model"},
-                "the stresses of sliding asperities are not available; use model = 'elements'");
-    }
-
-    void check_tractions() {
-        const Case::Output& o = c_.output;
-        if (std::ranges::count(o.fields, double(Field::traction)) == 0) return;
-        require(c_.solids.friction > 0, {"output%fields", "solids%friction"},
-                "'traction' needs solids%friction > 0");
-        require(elements_ || !(c_.solids.friction > 0), {"output%fields", "solver%model"},
-                "'traction' is for elements; of asperities the picture `stick` shows the spots");
+    // The fields of a physics need it.
+    void check_fields() {
+        const std::vector<const Physics*> asked = physics_asked(c_);
+        for (const Physics* p : all_physics())
+            for (const PointField& f : p->fields)
+                require(!has_field(c_, f.name) || contains(asked, p), {"output%fields", p->key},
+                        "'", f.name, "' needs ", p->key);
     }
 
     void check_sizes() {
@@ -526,8 +478,8 @@ void require_valid(const Case& settings, std::initializer_list<std::string_view>
 }
 
 bool has_closed_forms(const Case& c) {
-    return c.solids.layer_thickness.empty() && physics_of(c).relaxation.none() &&
-           c.indenter.file.empty();
+    return c.solids.layer_thickness.empty() && c.indenter.file.empty() &&
+           std::ranges::all_of(physics_asked(c), &Physics::closed_forms);
 }
 
 }  // namespace rsc

@@ -66,43 +66,6 @@ struct Rectangle {
     bool known() const { return Lx > 0 && Ly > 0; }
 };
 
-// Pressures are limited to H = H0 sqrt(1 + length/r), where r is the radius of an asperity
-// (physics/hardness/hardness.hpp).
-struct Hardness {
-    double H0 = __builtin_huge_val();  // [force/length^2]; Infinity: elastic
-    double length = 0;                 // length of the size effect [length]
-    double at(double radius) const { return H0 * std::sqrt(1 + length / radius); }
-};
-
-// Adhesion of the bodies (physics/adhesion/sticking.hpp).
-struct Adhesion {
-    double work = 0;   // work of adhesion w [force/length]; 0: no adhesion
-    double range = 0;  // range z0 of the attraction [length]; 0: JKR
-};
-
-inline constexpr int kMostRelaxations = 16;
-
-// Relaxation of body 1 (physics/relaxation/relaxation.hpp): shares g_k > 0, whose sum is at most 1,
-// and times tau_k > 0 [time]. Empty: the body is elastic.
-struct Relaxation {
-    std::vector<double> share = {}, time = {};
-    // share of this body in the compliance 1/E* of the pair; 1 if the other one is rigid
-    double soft = 1;
-    bool none() const { return share.empty(); }
-    // The shortest relaxation time with a share; Infinity: there is none.
-    double shortest() const {
-        double least = kInfinity;
-        for (const auto k : indices(share))
-            if (share[k] > 0) least = std::min(least, time[k]);
-        return least;
-    }
-};
-
-// Archard's law: a pressure p that slides a distance ds lowers the surface by coefficient p ds.
-struct Wear {
-    double coefficient = 0;  // [length^2/force]; 0: none
-};
-
 // Points of a measured map that asperities do not represent.
 struct MapMarks {
     std::vector<std::array<double, 3>>
@@ -112,13 +75,25 @@ struct MapMarks {
     double reach = 0;  // a grid step [length]
 };
 
-// What the bodies do beside deforming elastically; the defaults: nothing.
-struct BodyPhysics {
-    Hardness hardness = {};
-    Relaxation relaxation = {};
-    Adhesion adhesion = {};
-    Wear wear = {};
-    double friction = 0;  // coefficient
+// The parameters of all that is computed beyond an elastic contact, by their types, which the rooms
+// of physics/ declare. What was not set has the values that its type begins with.
+class BodyPhysics {
+public:
+    template <class T>
+    T& of() {
+        std::any& place = all_[typeid(T)];
+        if (!place.has_value()) place = T{};
+        return *std::any_cast<T>(&place);
+    }
+    template <class T>
+    const T& of() const {
+        static const T unset{};
+        const auto found = all_.find(typeid(T));
+        return found == all_.end() ? unset : *std::any_cast<T>(&found->second);
+    }
+
+private:
+    std::map<std::type_index, std::any> all_;
 };
 
 // What is known of the rough surface beside its asperities or heights. 0: unknown.

@@ -209,8 +209,9 @@ struct Level : LevelValues {
     LevelPixels pixels;
     LevelTractions tractions;
     GapCounts gaps;
-    // Two flats: the magnitude of the flux at each point (LevelSource::flux); empty: not asked for.
-    std::vector<double> flux;
+    // Fields of the physics at all points of the map (LevelRecorder::fields_at); empty: not asked
+    // for.
+    std::vector<std::vector<std::vector<double>>> fields;
     std::vector<double>
         // area of an elliptic spot not covered by earlier spots; the sum is the area of the union;
         // empty: pi a^2

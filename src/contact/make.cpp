@@ -54,6 +54,7 @@ std::unique_ptr<Path> make_element_contact(const HeightMap& heights, const Inden
     for (const Physics* p : physics_asked(options.physics)) {
         if (p->elements) model = p->elements(heights, indenter, options);
         if (p->lowering) physics.lowering = p->lowering(options.physics);
+        if (p->loads) physics.loads = p->loads(options.physics);
         if (p->largest_pressure) physics.highest = p->largest_pressure(options.physics, kInfinity);
     }
     if (!model) model = make_elements(heights, indenter, options, std::move(physics));

@@ -1,14 +1,17 @@
 #include "contact/quantities.hpp"
 
 #include "base/error.hpp"
+#include "case/case.hpp"
 #include "contact/answers.hpp"
-#include "physics/flow/flow.hpp"
 #include "physics/physics.hpp"
 
 namespace rsc {
 namespace {
 
 using V = LevelValues;
+
+bool of_flats(const Case& c) { return c.indentation.boundary == Boundary::periodic; }
+bool of_lines(const Case& c) { return c.indentation.line(); }
 
 constexpr LevelQuantity kRows[] = {
     {.name = "separation",
@@ -60,6 +63,7 @@ constexpr LevelQuantity kRows[] = {
      .force_power = 1,
      .meaning = "nominal pressure between two flats, N/A0",
      .always = false,
+     .shown = of_flats,
      .statistics = true,
      .plain = "pressure",
      .heading = "p",
@@ -71,6 +75,7 @@ constexpr LevelQuantity kRows[] = {
      .error_factor = 0.13,
      .error_averages = true,
      .always = false,
+     .shown = of_flats,
      .statistics = true,
      .plain = "area fraction",
      .heading = "A/A0",
@@ -82,75 +87,12 @@ constexpr LevelQuantity kRows[] = {
      .force_power = 1,
      .meaning = "force per length of a line contact, N/L",
      .always = false,
+     .shown = of_lines,
      .statistics = true,
      .plain = "force per length",
      .heading = "N/L",
      .width = 14,
      .digits = 6},
-    {.name = "gap_mean",
-     .member = &V::gap_mean,
-     .length_power = 1,
-     .meaning = "mean gap between two flats",
-     .comment = "boundary elements, over the whole cell; 0 where the bodies touch",
-     .compute = compute_gap,
-     .stage = Stage::gap,
-     .error_factor = 0.0014,
-     .always = false,
-     .statistics = true,
-     .of_flow = true,
-     .plain = "mean gap",
-     .heading = "gap",
-     .width = 11,
-     .digits = 5},
-    {.name = "gap_mean_open",
-     .member = &V::gap_mean_open,
-     .length_power = 1,
-     .meaning = "mean gap where two flats do not touch",
-     .compute = compute_gap,
-     .stage = Stage::gap,
-     .always = false},
-    {.name = "percolates",
-     .member = &V::percolates_x,
-     .y = &V::percolates_y,
-     .unit = "1",
-     .meaning = "1 if the gap is open across any number of periods, otherwise 0",
-     .comment = "along x, along y: points of the gap connected by their sides wind around the "
-                "periodic cell",
-     .compute = compute_gap,
-     .stage = Stage::gap,
-     .always = false,
-     .statistics = true,
-     .plain = "percolation (its share)"},
-    {.name = "permeability",
-     .member = &V::permeability_xx,
-     .y = &V::permeability_yy,
-     .z = &V::permeability_xy,
-     .length_power = 3,
-     .meaning = "permeability of the gap, K",
-     .comment = "flux per width q = -(K/eta) grad P of a fluid of viscosity eta; a parallel gap h "
-                "has h^3/12. A seal of length l along x and width w leaks w K_xx/(eta l) times the "
-                "pressure drop",
-     .compute = compute_permeability,
-     .stage = Stage::flow,
-     .own_error = permeability_error,
-     .always = false,
-     .statistics = true,
-     .logarithm = true,
-     .plain = "permeability"},
-    {.name = "hydraulic_gap",
-     .member = &V::hydraulic_gap_x,
-     .y = &V::hydraulic_gap_y,
-     .length_power = 1,
-     .meaning = "parallel gap of the same permeability, (12 K)^(1/3), along x and along y",
-     .compute = compute_permeability,
-     .stage = Stage::flow,
-     .own_error = hydraulic_gap_error,
-     .always = false,
-     .of_flow = true,
-     .plain = "hydraulic gap",
-     .heading = "hydraulic",
-     .width = 14,
-     .digits = 5},
     {.name = "contacts",
      .member = &V::contacts,
      .meaning = "number of contacts",
@@ -416,7 +358,11 @@ constexpr const char* kComponents[][3] = {{""}, {"_x", "_y"}, {"_xx", "_yy", "_x
 
 std::vector<LevelQuantity> make_quantities() {
     std::vector<LevelQuantity> all(std::begin(kRows), std::end(kRows));
-    for (const Physics* p : all_physics()) append(all, p->quantities);
+    // Those of physics come after N, A and what follows from them.
+    auto place = std::ranges::find(all, std::string_view("contacts"), &LevelQuantity::name);
+    for (const Physics* p : all_physics())
+        place = all.insert(place, p->quantities.begin(), p->quantities.end()) +
+                std::ssize(p->quantities);
     std::size_t slots = 0;
     for (LevelQuantity& q : all) {
         q.slot = slots;
@@ -476,10 +422,10 @@ std::string names_of_quantities() {
     return names;
 }
 
-void compute_quantities(LevelSource& source, Stage stage) {
+void compute_quantities(LevelSource& source, const Case* run) {
     if (std::isnan(source.level.force)) return;  // there is no state
     for (const LevelQuantity& q : level_quantities())
-        if (q.compute && q.stage == stage) (void)q.compute(source);
+        if (q.compute && (!q.in_run || (run && q.in_run(*run)))) (void)q.compute(source);
 }
 
 }  // namespace rsc

@@ -10,20 +10,23 @@
 
 namespace rsc {
 
+struct Case;
+
 // What the quantities of a level are computed from.
 struct LevelSource {
     Path& contact;  // that solved the level
     Level& level;
     std::array<double, 2> resistivity = {};  // of the bodies; 0: not known
+    const BodyPhysics* physics = nullptr;    // parameters of the bodies; null: not known
     const HeightMap* map = nullptr;          // of elements, before any change; null for asperities
-    // If not null, computing the permeability also gives its flux (physics/flow/permeability.hpp).
-    std::vector<double>* flux = nullptr;
+    // Fields of the level are asked for: what is computed gives also what only they need.
+    bool for_fields = false;
+    std::vector<double> flux = {};  // of the permeability (physics/flow/permeability.hpp)
+    // Two flats: their gap is counted in so many bins of this width [length]; 0: it is not.
+    int gap_bins = 0;
+    double gap_bin = 0;
     std::vector<double> gap = {};  // of two flats at all points; empty: not yet computed [length]
 };
-
-// When a run computes a quantity: with the solution, or for two flats by elements from the gap of
-// the level, or also from its flow if the case has output%flow.
-enum class Stage { solution, gap, flow };
 
 struct LevelQuantity {
     using Member = std::variant<double LevelValues::*, std::int32_t LevelValues::*,
@@ -43,7 +46,8 @@ struct LevelQuantity {
     // Sets it in the level unless it is known. Returns null, or why the level has none; for levels
     // with a state only. Null: it comes with the solution, or from the judge or the map.
     const char* (*compute)(LevelSource&) = nullptr;
-    Stage stage = Stage::solution;
+    // Whether each level of a run computes it; null: yes. If not, it is computed by name only.
+    bool (*in_run)(const Case&) = nullptr;
     // Boundary elements: its expected relative error is error_factor border_share, for a sum over
     // all contacts (error_averages), whose errors partly cancel, divided by the fourth root of
     // their number; 0: none is stated. The factors are those of input/trust/resolution.py, rounded
@@ -57,12 +61,16 @@ struct LevelQuantity {
     bool separate = false;  // an axis of files, which they write before the others
     bool of_map = false;    // of the maps of a run: not available by name
     bool always = true;     // false: written only if some level has it
+    // Whether the screen has its column, if it has a heading; null: if `always`.
+    bool (*shown)(const Case&) = nullptr;
     // A count: written with this quantity, even if it is 0 at all levels.
     double LevelValues::*beside = nullptr;
+    // The variable of files that has its smallest value over the levels of a realization, missing
+    // if a level has no state; null: none.
+    const char *least = nullptr, *least_meaning = "", *least_comment = "";
     bool statistics = false;  // files also have name_mean and name_std over realizations
     // these are of its logarithm, name_log_mean ..., over the realizations where it is positive
     bool logarithm = false;
-    bool of_flow = false;  // on the screen only with output%flow
     const char* plain = "";
     const char* heading = nullptr;  // of its column on the screen; null: not shown
     int width = 0, digits = 0;      // of the column; significant digits of a double, 0: "%.1e"
@@ -97,7 +105,8 @@ struct QuantityComponent {
 std::optional<QuantityComponent> find_quantity(std::string_view name);
 std::string names_of_quantities();  // separated by commas
 
-// Computes all quantities of a stage that a level has.
-void compute_quantities(LevelSource& source, Stage stage);
+// Computes the quantities of a level that no case needs to ask for, and in a run those that its case
+// asks for.
+void compute_quantities(LevelSource& source, const Case* run = nullptr);
 
 }  // namespace rsc

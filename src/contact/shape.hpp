@@ -93,8 +93,6 @@ public:
     // [length], so that it may press where the surface has no summit; 0: a corner at the tip;
     // negative: none.
     virtual double edge(double blunt) const { return (void)blunt, -1.0; }
-    // True if s depends only on the distance from the tip.
-    virtual bool round() const { return false; }
     // Radius R* of one sphere or two; Infinity for a flat; NaN for any other shape.
     virtual double hertz_radius() const { return std::numeric_limits<double>::quiet_NaN(); }
     // True if the shape has the periods (x, y), so that it can be one of two periodic flats, or of

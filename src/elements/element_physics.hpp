@@ -26,9 +26,43 @@ public:
     virtual double accuracy() const = 0;
 };
 
+// How earlier loads on the points of a map act on in a body that relaxes (physics/relaxation): the
+// deflection under loads f at the end of a step is K [compliance f + r], r the rest of earlier loads
+// and K f the deflections of the instantaneous body. A step is thus an elastic problem with a known
+// gap.
+class LastingLoads {
+public:
+    virtual ~LastingLoads() = default;
+    // Sets the duration dt of the step that begins with the last accepted loads; may be called
+    // again until loads are accepted.
+    virtual void step(double dt) = 0;
+    virtual double compliance() const = 0;
+    virtual double shortest_time() const = 0;  // as History
+    // Points that have ever carried a load, in increasing order, and the rest of each at the end of
+    // the step.
+    virtual const std::vector<std::int32_t>& places() const = 0;
+    virtual std::vector<double> rest() const = 0;
+    // The loads whose deflections by K are those after the last accepted loads.
+    virtual std::vector<double> lasting() const = 0;
+    // Accepts loads f at the end of the step, > 0 at `where` (increasing) and 0 elsewhere.
+    // `deflect` returns K f over all places(), including `where`.
+    using Deflect = std::function<std::vector<double>(const std::vector<double>& f)>;
+    virtual void accept(std::span<const std::int32_t> where, std::span<const double> f,
+                        const Deflect& deflect) = 0;
+    // Stored energy, and energy dissipated since the first load, in units of load times deflection.
+    virtual double stored() const = 0;
+    virtual double lost() const = 0;
+    virtual void forget() = 0;
+    // Writes the state as numbers, and restores it; read() returns how many numbers it used and
+    // throws Error(bad_input) if they are invalid.
+    virtual void write(std::vector<double>& numbers) const = 0;
+    virtual std::size_t read(std::span<const double> numbers) = 0;
+};
+
 // What physics adds to elements.
 struct ElementPhysics {
     std::unique_ptr<Lowering> lowering = nullptr;
+    std::unique_ptr<LastingLoads> loads = nullptr;
     double highest = kInfinity;  // limit of the pressures [force/length^2]
 };
 

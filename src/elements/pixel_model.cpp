@@ -18,10 +18,9 @@ PixelModel::PixelModel(const HeightMap& heights, const Indenter& indenter,
       heights_(heights),
       indenter_(indenter),
       options_(options),
+      loads_(std::move(physics.loads)),
       lowering_(std::move(physics.lowering)),
-      highest_(physics.highest) {
-    if (!options.physics.relaxation.none()) loads_.emplace(Creep(options.physics.relaxation));
-}
+      highest_(physics.highest) {}
 
 template <class Visit>
 void PixelModel::lower(std::vector<double>& depths, Visit&& visit) {

@@ -6,7 +6,6 @@
 #include "elements/bounded.hpp"
 #include "elements/cut_map.hpp"
 #include "elements/element_physics.hpp"
-#include "physics/relaxation/load_memory.hpp"
 
 namespace rsc {
 
@@ -59,9 +58,9 @@ protected:
     double top_ = -kInfinity;  // highest point under the indenter
     // the last level is accepted: the contact is elastic until loaded further
     bool accepted_ = false;
-    std::optional<LoadMemory> loads_;     // relaxing bodies
-    std::unique_ptr<Lowering> lowering_;  // bodies that wear
-    double highest_;                      // limit of the pressures
+    std::unique_ptr<LastingLoads> loads_;  // relaxing bodies
+    std::unique_ptr<Lowering> lowering_;   // bodies that wear
+    double highest_;                       // limit of the pressures
 
 private:
     void accept(Level& level) final;
@@ -70,7 +69,7 @@ private:
     std::vector<double> write() const final;
     void read(const std::vector<double>& numbers) final;
     PathClock clock() const final { return lowering_ ? lowering_->clock() : History::clock(); }
-    double shortest_time() const final { return options_.physics.relaxation.shortest(); }
+    double shortest_time() const final { return loads_ ? loads_->shortest_time() : kInfinity; }
     double accuracy() const final { return lowering_ ? lowering_->accuracy() : 0.0; }
     void step(double length, double lasting) final {
         if (loads_) loads_->step(length);

@@ -130,23 +130,23 @@ void ResultTable::levels() {
             add_absent(q.name, shape, units(q), q.meaning, values, q.comment, error);
         error_of(q, shape);
     }
-    std::vector<double> pull_off(o_.realizations, std::numeric_limits<double>::quiet_NaN());
-    bool adhesive = false;
-    for (const auto k : indices(pull_off)) {
-        bool without_state = false;  // the smallest force may have been that of such a level
+    for (const LevelQuantity& q : level_quantities())
+        if (q.least) least_of(q);
+}
+
+// The smallest value of a quantity over the levels of a realization.
+void ResultTable::least_of(const LevelQuantity& q) {
+    if (!computed(of_rows([&](const LevelValues& l) { return q.of(l); }))) return;
+    std::vector<double> least(o_.realizations, kNotComputed);
+    for (const auto k : indices(least)) {
+        bool without_state = false;  // the smallest may have been that of such a level
         for (std::size_t s = 0; s < o_.steps; ++s) {
-            const double least = o_.row(k, s).least_force;
-            pull_off[k] = std::fmin(pull_off[k], least);
-            adhesive = adhesive || !std::isnan(least);
+            least[k] = std::fmin(least[k], q.of(o_.row(k, s)));
             without_state = without_state || std::isnan(o_.row(k, s).force);
         }
-        if (without_state) pull_off[k] = std::numeric_limits<double>::quiet_NaN();
+        if (without_state) least[k] = kNotComputed;
     }
-    if (adhesive)
-        add_absent("pull_off_force", {"realization"}, unit(0, 1),
-                   "smallest force since the first level", pull_off,
-                   "adhesion: including forces between levels; negative if separating the bodies "
-                   "takes a tensile force; missing if a level has no state");
+    add_absent(q.least, {"realization"}, units(q), q.least_meaning, least, q.least_comment);
 }
 
 bool ResultTable::computed(const std::vector<double>& values) {
@@ -354,30 +354,6 @@ void ResultTable::regimes() {
                "contact area of the smooth indenter at force_mean (sphere: Hertz)", hertz,
                "sphere: pi a^2, a = (3 N R*/(4 E*))^(1/3); missing for two flats and for indenters "
                "without a closed form");
-}
-
-void ResultTable::friction() {
-    const FrictionLoops& f = r_.friction;
-    if (f.points == 0) return;
-    file_.dimension("point", f.points);
-    add("point", {"point"}, "1", "point of a slide at constant separation", one_to(f.points),
-        {{"first_loading", std::vector<std::int32_t>{1, std::int32_t(f.first)}},
-         {"cycle", std::vector<std::int32_t>{std::int32_t(f.first) + 1, std::int32_t(f.points)}},
-         {"comment",
-          "first and last point of the first loading, from 0 to full slip, and of the cycle at 90 "
-          "% of it, closed"}});
-    const Names loop{"step", "point"};
-    const std::string none = "missing without contact";
-    add_absent("tangential_displacement", loop, unit(1), "tangential displacement of the indenter",
-               f.displacement, none);
-    add_absent("tangential_force", loop, unit(0, 1), "tangential force", f.force,
-               "partial slip with the coefficient solids%friction at every point; at full slip the "
-               "coefficient times the normal force; " +
-                   none);
-    add_absent("tangential_stiffness", {"step"}, unit(-1, 1), "tangential stiffness in full stick",
-               f.stiffness, "4 G*/E* times -dN/dZ0; " + none);
-    add_absent("cycle_work", {"step"}, unit(1, 1), "friction work of a cycle", f.cycle_work,
-               "the area of the loop; " + none);
 }
 
 void ResultTable::two_flats(const Moments& m) {

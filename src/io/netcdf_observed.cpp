@@ -138,8 +138,7 @@ void ResultTable::distributions() {
     }
     if (o_.realizations == 1) return;
     std::vector<double> sums;
-    for (const DistributionSums& level : o_.distribution_sums)
-        for (const ExactSum& sum : level.numbers) sums.push_back(sum.high);
+    for (const DistributionSums& level : o_.distribution_sums) append(sums, level.numbers);
     const std::size_t numbers = o_.distribution_sums.front().numbers.size();
     file_.dimension("pdf_sum", numbers);
     add("pdf_sum", {"pdf_sum"}, "1", "number of the sum", one_to(numbers));
@@ -381,34 +380,41 @@ void ResultTable::heights() {
                     false});
 }
 
-// The largest stresses at each depth, and where.
-void ResultTable::stresses() {
-    const std::vector<double>& depths = o_.options.stress_depths;
-    if (depths.empty()) return;
-    file_.dimension("depth", depths.size());
-    add("depth", {"depth"}, unit(1), "depth below the surface of body 1", depths);
-    const Names dims{"realization", "step", "depth"};
-    for (const StressQuantity& q : kStressQuantities) {
-        const auto values = [&](double LargestStress::Value::*part) {
-            std::vector<double> all;
-            for (const LargestStress& s : o_.stresses) all.push_back((s.*q.of).*part);
-            return all;
-        };
-        const std::string name = q.name;
-        const std::vector<double> errors = values(&LargestStress::Value::error);
-        const bool stated = computed(errors);
-        add_absent(name + "_max", dims, unit(-2, 1), std::string("largest ") + q.meaning,
-                   values(&LargestStress::Value::value), "below the contact and around it",
-                   stated ? NetcdfAttributes{{"ancillary_variables", name + "_max_error_expected"}}
-                          : NetcdfAttributes{});
-        if (stated)
-            add_absent(name + "_max_error_expected", dims, "1",
-                       "expected relative error of " + name + "_max", errors,
-                       "not exceeded in nine of ten cases; follows from border_share");
-        for (const auto& [axis, part] :
-             {std::pair{"x", &LargestStress::Value::x}, std::pair{"y", &LargestStress::Value::y}})
-            add_absent(name + "_max_" + axis, dims, unit(1),
-                       std::string(axis) + " of " + name + "_max", values(part));
+// The curves of the levels, with their axes.
+void ResultTable::curves() {
+    const std::size_t each = rsc::values_of(o_.options.curves);
+    std::size_t first = 0;
+    for (const AskedCurves& asked : o_.options.curves) {
+        const CurveAxis& axis = asked.axis;
+        if (axis.size == 0) continue;
+        file_.dimension(axis.name, axis.size);
+        NetcdfAttributes attributes;
+        for (const auto& [name, numbers] : axis.parts) attributes.push_back({name, numbers});
+        append(attributes, comment(axis.comment));
+        if (axis.values.empty())
+            add(axis.name, {axis.name}, "1", axis.meaning, one_to(axis.size), attributes);
+        else
+            add(axis.name, {axis.name}, unit(1), axis.meaning, axis.values, attributes);
+        std::map<std::string, std::vector<double>> values;
+        for (const LevelCurve& curve : asked.physics->curves) {
+            const std::size_t n = curve.count(axis.size);
+            std::vector<double>& all = values[curve.name];
+            for (const auto k : indices(o_.rows.size())) {
+                const auto begin = o_.curves.begin() + std::ptrdiff_t(k * each + first);
+                all.insert(all.end(), begin, begin + std::ptrdiff_t(n));
+            }
+            first += n;
+        }
+        for (const LevelCurve& curve : asked.physics->curves) {
+            if (curve.if_known && !computed(values[curve.name])) continue;
+            Names dims = curve.of_single ? Names{"step"} : Names{"realization", "step"};
+            if (curve.along) dims.push_back(axis.name);
+            const bool error = !curve.error.empty() && computed(values[curve.error]);
+            add_absent(curve.name, dims, unit(curve.length_power, curve.force_power), curve.meaning,
+                       values[curve.name], curve.comment,
+                       error ? NetcdfAttributes{{"ancillary_variables", curve.error}}
+                             : NetcdfAttributes{});
+        }
     }
 }
 
@@ -430,19 +436,12 @@ void ResultTable::fields() {
                    "0 where they touch");
     if (!f.contact.empty())
         add("field_contact", dims, "1", "1 where the bodies touch, 0 elsewhere", f.contact);
-    if (!f.traction.empty())
-        add_disorder("field_traction", dims, unit(-2, 1),
-                     "tangential traction of friction after first sliding, half-way to full slip",
-                     f.traction);
-    if (!f.flow.empty())
-        add_disorder("field_flow", dims, unit(3),
-                     "magnitude of the flux per width times the viscosity, for a mean pressure "
-                     "gradient of 1 along x",
-                     f.flow);
-    const Names planes{"field_step", "depth", "field_y", "field_x"};
-    for (const StressQuantity& q : kStressQuantities)
-        if (const std::vector<double>& values = f.*q.field; !values.empty())
-            add_disorder(std::string("field_") + q.name, planes, unit(-2, 1), q.meaning, values);
+    for (const Fields::OfPhysics& of : f.physics) {
+        const PointField& row = *of.row;
+        add_disorder(std::string("field_") + row.name,
+                     row.along ? Names{"field_step", of.axis, "field_y", "field_x"} : dims,
+                     unit(row.length_power, row.force_power), row.meaning, of.values);
+    }
     if (!f.heights.empty())
         add_disorder(
             "field_height",

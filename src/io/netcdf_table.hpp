@@ -82,11 +82,10 @@ public:
         measured();
         theory();
         regimes();
-        friction();
         maps();
         radial();
         distributions();
-        stresses();
+        curves();
         asperities();
         contacts();
         contact_mask();
@@ -104,6 +103,7 @@ private:
     void global_attributes(const std::string& history);
     void axes();
     void levels();
+    void least_of(const LevelQuantity& q);
     static bool computed(const std::vector<double>& values);
     NetcdfAttributes with_error(const LevelQuantity& q) const;
     void error_of(const LevelQuantity& q, const Names& shape);
@@ -130,7 +130,6 @@ private:
     void measured_heights(const Measured& m);
     void measured_spectrum(const Measured& m);
     void measured_fit(const MeasuredSpectrum& spectrum, const SelfAffineFit& found);
-    void friction();
     void two_flats(const Moments& moments);
     // netcdf_observed.cpp
     void maps();
@@ -146,7 +145,7 @@ private:
                  DistributionMoments ShownDistributions::*moments, NetcdfAttributes more,
                  const std::string& note);
     void pressure();
-    void stresses();
+    void curves();
     void asperities();
     void contacts();
     void contact_mask();

@@ -213,24 +213,23 @@ void read_surfaces(const Columns& file, Accumulators& sums) {
     read("saddles", &S::saddles);
 }
 
-void read_stresses(const Columns& file, Accumulators& sums) {
-    const std::size_t depths = sums.options.stress_depths.size();
-    if (depths == 0) return;
-    const std::vector<std::size_t> lengths{sums.realization.size(), sums.steps, depths};
-    sums.stresses.resize(sums.rows.size() * depths);
-    using Value = LargestStress::Value;
-    for (const StressQuantity& q : kStressQuantities)
-        for (const auto& [suffix, part] :
-             {std::pair{"_max", &Value::value}, {"_max_x", &Value::x}, {"_max_y", &Value::y}}) {
-            const std::vector<double> values = file.values(std::string(q.name) + suffix, lengths);
-            for (const auto k : indices(values)) (sums.stresses[k].*q.of).*part = values[k];
+// Each variable holds its curve of all levels, the sums all curves of each level.
+void read_curves(const Columns& file, Accumulators& sums) {
+    const std::size_t each = values_of(sums.options.curves);
+    sums.curves.resize(sums.rows.size() * each, kNotComputed);
+    std::size_t first = 0;
+    for (const AskedCurves& asked : sums.options.curves)
+        for (const LevelCurve& curve : asked.physics->curves) {
+            const std::size_t n = curve.count(asked.axis.size);
+            std::vector<std::size_t> lengths{sums.realization.size(), sums.steps};
+            if (curve.along) lengths.push_back(n);
+            if (asked.axis.size > 0 && (file.find(curve.name) || !curve.if_known)) {
+                const std::vector<double> values = file.values(curve.name, lengths);
+                for (const auto k : indices(values))
+                    sums.curves[k / n * each + first + k % n] = values[k];
+            }
+            first += asked.axis.size > 0 ? n : 0;
         }
-    for (const StressQuantity& q : kStressQuantities) {
-        const std::string name = std::string(q.name) + "_max_error_expected";
-        if (!file.find(name)) continue;
-        const std::vector<double> errors = file.values(name, lengths);
-        for (const auto k : indices(errors)) (sums.stresses[k].*q.of).error = errors[k];
-    }
 }
 
 void read_distributions(const Columns& file, Accumulators& sums) {
@@ -239,12 +238,12 @@ void read_distributions(const Columns& file, Accumulators& sums) {
     const std::vector<double> step = file.values("pdf_step", {levels});
     Distributions one = rounded({}, sums.options.pdf, 0);
     std::size_t count = 0;
-    for_each_number(one, sums.options.pdf, [&count](auto&, double) { ++count; });
+    for_each_number(one, [&count](double) { ++count; });
     const std::vector<double> numbers = file.values("pdf_sums", {levels, count});
     for (const auto d : indices(levels)) {
         sums.distributions[d].step = std::int32_t(step[d]) - 1;
         for (std::size_t k = d * count; k < (d + 1) * count; ++k)
-            sums.distributions[d].numbers.push_back({numbers[k], 0});
+            sums.distributions[d].numbers.push_back(numbers[k]);
     }
 }
 
@@ -258,7 +257,7 @@ Accumulators read_sums(const std::string& path, const ObserveOptions& options, s
     require_same_axes(file, options);
     read_levels(file, sums);
     read_surfaces(file, sums);
-    read_stresses(file, sums);
+    read_curves(file, sums);
     const std::vector<std::size_t> lengths{steps, at(options.map.ny), at(options.map.nx)};
     const std::vector<double> area = file.values("map_area_fraction", lengths);
     const std::vector<double> pressure = file.values("map_pressure", lengths);

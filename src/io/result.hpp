@@ -48,14 +48,6 @@ inline constexpr ContactColumn kContactColumns[] = {
     {"minor", &PackedContacts::minor, 1, 0, "minor semi-axis of the contact's elliptic spot"},
     {"angle", &PackedContacts::angle, 0, 0, "direction of the major semi-axis, from x"}};
 
-// First loading and the cycle at constant separation, one row for each level
-// (physics/friction/friction.hpp). NaN for levels without contact.
-struct FrictionLoops {
-    std::size_t first = 0, points = 0;        // of a row: of first loading, in all; 0: no friction
-    std::vector<double> displacement, force;  // [step][point] [length], [force]
-    std::vector<double> stiffness, cycle_work;  // [step] [force/length], [force length]
-};
-
 // A level of the asperity model solved also by elements (&compare). NaN: not known, or the elements
 // did not converge.
 struct ComparedLevel {
@@ -89,9 +81,8 @@ struct Result {
     ResidualProfile residual_profile;  // of elements after the last level; empty: not written
     PackedContacts contacts;           // empty: not written
     std::vector<LevelPixels> pixels;   // [step], elements; empty where they are not written
-    FrictionLoops friction;
-    std::optional<HeightMap> heights;          // none: not written
-    Fields fields;                             // empty: not written
+    std::optional<HeightMap> heights;  // none: not written
+    Fields fields;                     // empty: not written
     std::shared_ptr<const Measured> measured;  // of a measured map; null: not written
     ComparedLevels compared;                   // empty: not written
 

@@ -112,15 +112,9 @@ Distributions distributions_of(const PdfBins& bins, const Level& level, std::int
     return d;
 }
 
-// This quantum resolves the powers of small values, and sums over a million realizations remain
-// exact.
-constexpr int kSumBits = 84;
-
-void add(DistributionSums& sums, const PdfBins& bins, const Distributions& one) {
+void add(DistributionSums& sums, const Distributions& one) {
     DistributionSums term{one.step, {}};
-    for_each_number(one, bins, [&term](double number, double scale) {
-        term.numbers.push_back(exact_term(number, quantum_of(scale, kSumBits)));
-    });
+    for_each_number(one, [&term](double number) { term.numbers.push_back(number); });
     add(sums, term);
 }
 
@@ -130,7 +124,7 @@ void add(DistributionSums& sums, const DistributionSums& more) {
         return;
     }
     if (sums.step != more.step) sums.step = -1;
-    for (std::size_t k = 0; k < sums.numbers.size(); ++k) sums.numbers[k].add(more.numbers[k]);
+    for (std::size_t k = 0; k < sums.numbers.size(); ++k) sums.numbers[k] += more.numbers[k];
 }
 
 Distributions rounded(const DistributionSums& sums, const PdfBins& bins,
@@ -139,8 +133,7 @@ Distributions rounded(const DistributionSums& sums, const PdfBins& bins,
     d.levels = sums.numbers.empty() ? 0 : realizations;
     d.step = sums.step;
     auto next = sums.numbers.begin();
-    if (!sums.numbers.empty())
-        for_each_number(d, bins, [&next](double& number, double) { number = (next++)->high; });
+    if (!sums.numbers.empty()) for_each_number(d, [&next](double& number) { number = *next++; });
     return d;
 }
 

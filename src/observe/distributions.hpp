@@ -1,43 +1,10 @@
-// Distributions over contacts (paper, section 5), and their exact sums over realizations.
+// Distributions over contacts (paper, section 5), and their sums over realizations.
 #pragma once
 
 #include "base/std.hpp"
 #include "contact/level.hpp"
 
 namespace rsc {
-
-// Sums over realizations are independent of the order and grouping of their terms, bit for bit,
-// whichever thread, rank or interrupted run computed them.
-
-// A sum without rounding errors, stored as two doubles (T. J. Dekker, Numer. Math. 18, 1971; D. E.
-// Knuth): high is the rounded sum, low the remainder. Every term is a multiple of a power of two,
-// the quantum; sums up to 2^105 quanta are exact.
-struct ExactSum {
-    double high = 0, low = 0;
-
-    void add(const ExactSum& term) {
-        const ExactSum sum = of_two(high, term.high);
-        *this = of_two(sum.high, sum.low + (low + term.low));
-    }
-    // a + b without rounding errors.
-    static ExactSum of_two(double a, double b) {
-        const double sum = a + b, b_in_sum = sum - a;
-        return {sum, (a - (sum - b_in_sum)) + (b - b_in_sum)};
-    }
-};
-
-// Quantum for terms of the magnitude `scale`: a power of two about 2^bits times smaller. 0 (no
-// quantum) if it would underflow.
-inline double quantum_of(double scale, int bits) {
-    const double quantum =
-        scale > 0 && std::isfinite(scale) ? std::ldexp(1.0, std::ilogb(scale) - bits) : 0.0;
-    return quantum > std::numeric_limits<double>::min() ? quantum : 0.0;
-}
-
-// The value rounded to a multiple of the quantum.
-inline ExactSum exact_term(double value, double quantum) {
-    return {quantum > 0 ? std::nearbyint(value / quantum) * quantum : value, 0.0};
-}
 
 // Distributions are histograms, which add up over realizations without storing contacts. The bins
 // follow from theory, so that all realizations use the same.
@@ -91,46 +58,35 @@ struct Distributions {
 // Contacts without area are ignored. If the level has pixels, the point pressures are theirs.
 Distributions distributions_of(const PdfBins& bins, const Level& level, std::int32_t step);
 
-// Calls visit(number, scale) for every number of `d` that is summed over realizations, in a fixed
-// order. `scale` is its typical magnitude,
-// 0 for integers.
+// Calls visit(number) for every number of `d` that is summed over realizations, in a fixed order.
 template <class D, class Visit>
-void for_each_number(D& d, const PdfBins& bins, Visit visit) {
-    const double p = bins.pressure_max, area = bins.area_max;
-    visit(d.separation, std::sqrt(area));
-    for (auto& count : d.mean_pressure.weight) visit(count, 0.0);
-    visit(d.mean_pressure.overflow, 0.0);
-    for (auto& value : d.pressure.weight) visit(value, area);
-    visit(d.pressure.overflow, area);
-    visit(d.pressure.total, area);
-    visit(d.pressure.squares, area * area);
-    for (auto& count : d.spot_area.weight) visit(count, 0.0);
-    visit(d.spot_area.overflow, 0.0);
-    double p_power = 1, area_power = 1;
-    for (std::size_t k = 0; k < 4; ++k) {
-        p_power *= p;
-        area_power *= area;
-        visit(d.mean_pressure.power[k], p_power);
-        visit(d.pressure.power[k], area * p_power);
-        visit(d.spot_area.power[k], area_power);
-    }
-    if (!(bins.gap_max > 0)) return;
-    for (auto& count : d.gap.weight) visit(count, 0.0);
-    visit(d.gap.overflow, 0.0);
-    double gap_power = 1;
-    for (auto& sum : d.gap.power) {
-        gap_power *= bins.gap_max;
-        visit(sum, gap_power);
-    }
+void for_each_number(D& d, Visit visit) {
+    const auto all = [&](auto& values) {
+        for (auto& value : values) visit(value);
+    };
+    visit(d.separation);
+    all(d.mean_pressure.weight);
+    visit(d.mean_pressure.overflow);
+    all(d.pressure.weight);
+    for (auto* value : {&d.pressure.overflow, &d.pressure.total, &d.pressure.squares})
+        visit(*value);
+    all(d.spot_area.weight);
+    visit(d.spot_area.overflow);
+    for (const auto k : indices(d.pressure.power))
+        for (auto* h : {&d.mean_pressure, &d.pressure, &d.spot_area}) visit(h->power[k]);
+    if (d.gap.weight.empty()) return;
+    all(d.gap.weight);
+    visit(d.gap.overflow);
+    all(d.gap.power);
 }
 
-// Exact sums of the distributions of a level over realizations.
+// Sums of the distributions of a level over realizations, which are added in their order.
 struct DistributionSums {
-    std::int32_t step = 0;          // index of the level, from 0; -1 if realizations differ
-    std::vector<ExactSum> numbers;  // in the order of for_each_number; empty: no realizations
+    std::int32_t step = 0;        // index of the level, from 0; -1 if realizations differ
+    std::vector<double> numbers;  // in the order of for_each_number; empty: no realizations
 };
 
-void add(DistributionSums& sums, const PdfBins& bins, const Distributions& one);
+void add(DistributionSums& sums, const Distributions& one);
 void add(DistributionSums& sums, const DistributionSums& more);
 Distributions rounded(const DistributionSums& sums, const PdfBins& bins, std::int64_t realizations);
 

@@ -152,36 +152,27 @@ void append_row(std::vector<double>& to, const double* row, const PointWindow& w
     to.insert(to.end(), row + window.columns.first, row + window.columns.last + 1);
 }
 
-// Adds mu times what the pressures of a level are above those of the pixels that stick.
-void add_tractions(Fields& f, const FieldLevel& level, const PointWindow& window, double friction) {
-    const std::size_t begin = f.traction.size();
-    f.traction.resize(begin + window.points(), 0.0);
-    const auto add = [&](const LevelPixels& pixels, double factor) {
-        for (std::size_t k = 0; k < pixels.index.size(); ++k)
-            if (const auto inside = window.find(pixels.index[k]))
-                f.traction[begin + *inside] += factor * pixels.pressure[k];
-    };
-    add(level.level->pixels, friction);
-    add(level.stuck, -friction);
-}
-
-// Adds the stresses under the pressures to the requested fields.
-void add_stresses(Fields& f, const HeightMap& map, const Pressures& pressures,
-                  const PointWindow& window, const FieldsAsked& asked) {
-    const PointRange &columns = window.columns, &rows = window.rows;
+// Adds the fields of the physics at a level.
+void add_physics(Fields& f, const HeightMap& map, const FieldLevel& level,
+                 const Pressures& pressures, const PointWindow& window, const FieldsAsked& asked) {
     LevelPixels pixels;
     pixels.columns = map.nx;
     for (const auto& [point, load] : pressures) {
         pixels.index.push_back(static_cast<std::int32_t>(point));
         pixels.pressure.push_back(load.pressure);
     }
-    for (const double depth : asked.depths) {
-        StressPlane plane;
-        stress_below(map, pixels, asked.body, depth,
-                     {columns.first, rows.first, columns.size(), rows.size()}, &plane);
-        if (asked.mises) append(f.mises, plane.mises);
-        if (asked.shear) append(f.shear, plane.shear);
-        if (asked.tension) append(f.tension, plane.tension);
+    auto to = f.physics.begin();
+    for (const auto i : indices(asked.physics)) {
+        const FieldsAsked::OfPhysics& one = asked.physics[i];
+        const FieldValues below = one.recorder->fields_below({map, pixels, window});
+        for (const std::size_t row : one.rows) {
+            std::vector<double>& values = (to++)->values;
+            if (!below.empty())
+                append(values, below[row]);
+            else
+                for (int j = window.rows.first; j <= window.rows.last; ++j)
+                    append_row(values, &level.physics[i][row][at(j) * at(map.nx)], window);
+        }
     }
 }
 
@@ -228,7 +219,9 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
     const PointRange &columns = window.columns, &rows = window.rows;
     for (int i = columns.first; i <= columns.last; ++i) f.x.push_back(map.x(i));
     for (int j = rows.first; j <= rows.last; ++j) f.y.push_back(map.y(j));
-    if (asked.stresses()) f.depth = asked.depths;
+    for (const FieldsAsked::OfPhysics& one : asked.physics)
+        for (const std::size_t row : one.rows)
+            f.physics.push_back({&one.of->physics->fields[row], one.of->axis.name, {}});
     const auto add_heights = [&](const HeightMap& of) {
         for (int j = rows.first; j <= rows.last && asked.heights; ++j)
             append_row(f.heights, of.row(j), window);
@@ -260,10 +253,7 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
             append(f.gap, gaps(lowered, indenter, level.separation, touches, window,
                                std::move(deflection)));
         }
-        if (asked.traction) add_tractions(f, levels[s], window, asked.friction);
-        if (asked.stresses()) add_stresses(f, map, pressures[s], window, asked);
-        for (int j = rows.first; j <= rows.last && asked.flow; ++j)
-            append_row(f.flow, levels[s].flow.data() + std::ptrdiff_t{j} * map.nx, window);
+        add_physics(f, map, levels[s], pressures[s], window, asked);
     }
     return f;
 }

@@ -4,37 +4,25 @@
 
 #include "contact/indentation.hpp"
 #include "contact/level.hpp"
-#include "physics/stress/plane_stress.hpp"
+#include "physics/physics.hpp"
 #include "surface/surface.hpp"
 
 namespace rsc {
 
-// In the order of the names for output%fields.
-enum class Field { pressure, gap, contact, heights, flow, mises, shear, tension, traction };
-inline constexpr std::array kFieldNames = {"pressure", "gap",   "contact", "heights", "flow",
-                                           "mises",    "shear", "tension", "traction"};
-constexpr bool is_stress(Field f) {
-    return f == Field::mises || f == Field::shear || f == Field::tension;
-}
-
 struct FieldsAsked {
-    bool pressure = false, gap = false, contact = false, heights = false, flow = false;
-    bool mises = false, shear = false, tension = false;
-    bool traction = false;
+    bool pressure = false, gap = false, contact = false, heights = false;
     bool worn = false;  // heights are those after each level
-    bool stresses() const { return mises || shear || tension; }
-    bool any() const {
-        return pressure || gap || contact || heights || flow || traction || stresses();
-    }
-    double friction = 0;         // coefficient, for the tractions
-    std::vector<double> depths;  // of the stresses [length]
-    StressedBody body;           // in which they are
+    // Those of a physics, by their numbers in Physics::fields.
+    struct OfPhysics {
+        const AskedCurves* of;
+        LevelRecorder* recorder;
+        std::vector<std::size_t> rows;
+    };
+    std::vector<OfPhysics> physics = {};
     std::optional<std::array<double, 4>>
         window;  // x0, x1, y0, y1 [length]; absent: around the contact
+    bool any() const { return pressure || gap || contact || heights || !physics.empty(); }
 };
-
-// Slide at which tractions are drawn, over that of full slip.
-inline constexpr double kTractionSlide = 0.5;
 
 // The requested fields; others are empty.
 struct Fields {
@@ -45,27 +33,14 @@ struct Fields {
     std::vector<std::int32_t> contact;  // [step][y][x] 1 in contact, otherwise 0
     std::vector<double>
         heights;  // [y][x], or if worn [step][y][x], of the undeformed surface [length]
-    // [step][y][x] magnitude of the flux times viscosity for a mean pressure gradient 1 along x
-    // [length^3]
-    std::vector<double> flow;
-    // [step][y][x] of first sliding, kTractionSlide of the way to full slip [force/length^2]
-    std::vector<double> traction;
-    std::vector<double> depth;                  // of the stresses [length]
-    std::vector<double> mises, shear, tension;  // [step][depth][y][x] [force/length^2]
+    // Those of physics: [step][y][x], or along an axis [step][axis][y][x].
+    struct OfPhysics {
+        const PointField* row;
+        const char* axis;
+        std::vector<double> values;
+    };
+    std::vector<OfPhysics> physics;
 };
-
-// The stresses in files, one row each.
-struct StressQuantity {
-    const char *name, *meaning;
-    LargestStress::Value LargestStress::*of;
-    std::vector<double> Fields::*field;
-};
-inline constexpr StressQuantity kStressQuantities[] = {
-    {"mises", "equivalent stress of von Mises", &LargestStress::mises, &Fields::mises},
-    {"shear", "shear stress, half the difference of the principal stresses", &LargestStress::shear,
-     &Fields::shear},
-    {"tension", "principal stress, negative where all are compressive", &LargestStress::tension,
-     &Fields::tension}};
 
 // The points that yielded asperities have lost: those around a summit that are above it less its
 // residual depth [length]. `repeats`: the surface is periodic.
@@ -79,8 +54,7 @@ struct FieldLevel {
     const Level* level;
     ResidualProfile lowered;
     std::optional<Level> lasting = {};
-    std::vector<double> flow = {};  // of all points, row by row
-    LevelPixels stuck = {};         // FrictionLevels::stuck()
+    std::vector<FieldValues> physics = {};  // LevelRecorder::fields_at(), as FieldsAsked::physics
 };
 
 // Computes fields of levels of one contact. Pressures are those of boundary elements, or of

@@ -31,8 +31,8 @@ void add_cells(std::vector<CellSums>& sums, std::vector<CellSums> terms) {
     for (CellSums& sum : sums) {
         for (; term != terms.end() && term->cell < sum.cell; ++term) all.push_back(*term);
         if (term != terms.end() && term->cell == sum.cell) {
-            sum.area.add(term->area);
-            sum.force.add(term->force);
+            sum.area += term->area;
+            sum.force += term->force;
             ++term;
         }
         all.push_back(sum);
@@ -57,10 +57,10 @@ std::int32_t nearest_level(const std::vector<double>& levels, double wanted) {
 
 RealizationRecord observe(const ObserveOptions& options, std::int64_t realization,
                           const SurfaceStatistics& surface, const std::vector<Level>& levels,
-                          std::vector<LargestStress> stresses) {
+                          std::vector<double> curves) {
     RealizationRecord record;
     record.realization = realization;
-    record.stresses = std::move(stresses);
+    record.curves = std::move(curves);
     record.surface = surface;
     for (std::size_t s = 0; s < levels.size(); ++s) {
         require_finite(levels[s], s);
@@ -126,7 +126,7 @@ Accumulators::Accumulators(const ObserveOptions& options_, std::size_t steps_)
 
 void Accumulators::add(const RealizationRecord& record) {
     if (record.levels.size() != steps || record.maps.size() != steps ||
-        record.stresses.size() != steps * options.stress_depths.size() ||
+        record.curves.size() != steps * values_of(options.curves) ||
         record.distributions.size() != distributions.size())
         throw Error(Failure::internal, "realization " + std::to_string(record.realization) +
                                            " has " + std::to_string(record.levels.size()) +
@@ -138,21 +138,16 @@ void Accumulators::add(const RealizationRecord& record) {
     realization.push_back(record.realization);
     surface.push_back(record.surface);
     rows.insert(rows.end(), record.levels.begin(), record.levels.end());
-    stresses.insert(stresses.end(), record.stresses.begin(), record.stresses.end());
-    constexpr int kBits = 64;  // a full cell is 2^64 quanta, 11 bits more than a double has
-    const double cell_area = options.map.side * options.map.side,
-                 area_quantum = quantum_of(cell_area, kBits),
-                 force_quantum = quantum_of(options.pdf.pressure_max * cell_area, kBits);
+    rsc::append(curves, record.curves);
     for (std::size_t s = 0; s < steps; ++s) {
         const MapLevel& map = record.maps[s];
         std::vector<CellSums> terms;
         for (std::size_t k = 0; k < map.cell.size(); ++k)
-            terms.push_back({map.cell[k], exact_term(map.area[k], area_quantum),
-                             exact_term(map.force[k], force_quantum)});
+            terms.push_back({map.cell[k], map.area[k], map.force[k]});
         add_cells(maps[s], std::move(terms));
     }
     for (std::size_t d = 0; d < distributions.size(); ++d)
-        rsc::add(distributions[d], options.pdf, record.distributions[d]);
+        rsc::add(distributions[d], record.distributions[d]);
 }
 
 void Accumulators::append(const Accumulators& later) {
@@ -164,7 +159,7 @@ void Accumulators::append(const Accumulators& later) {
     realization.insert(realization.end(), later.realization.begin(), later.realization.end());
     surface.insert(surface.end(), later.surface.begin(), later.surface.end());
     rows.insert(rows.end(), later.rows.begin(), later.rows.end());
-    stresses.insert(stresses.end(), later.stresses.begin(), later.stresses.end());
+    rsc::append(curves, later.curves);
     for (std::size_t s = 0; s < steps; ++s) add_cells(maps[s], later.maps[s]);
     for (std::size_t d = 0; d < distributions.size(); ++d)
         rsc::add(distributions[d], later.distributions[d]);
@@ -182,13 +177,13 @@ Observations Accumulators::finish() const {
     const RadialMean mean(options.map, options.tip_x, options.tip_y, options.radial_bins);
     o.radii = mean.radii();
     std::vector<double> row(cells);
-    const auto means_of = [&](ExactSum CellSums::*member, SparseMaps& out,
+    const auto means_of = [&](double CellSums::*member, SparseMaps& out,
                               std::vector<double>& radial) {
         out.cells = cells;
         for (std::size_t s = 0; s < steps; ++s) {
             for (const CellSums& c : maps[s]) {
                 out.cell.push_back(static_cast<std::int32_t>(c.cell));
-                out.value.push_back((c.*member).high / map_divisor(options.map, counts[s]));
+                out.value.push_back(c.*member / map_divisor(options.map, counts[s]));
             }
             out.end.push_back(out.cell.size());
             if (o.radii.empty()) continue;
@@ -218,9 +213,8 @@ void Accumulators::restore_map(std::size_t step, std::span<const double> area_fr
     maps[step].clear();
     for (std::size_t k = 0; k < area_fraction.size(); ++k)
         if (area_fraction[k] != 0 || pressure[k] != 0)
-            maps[step].push_back({static_cast<std::int64_t>(k),
-                                  {area_fraction[k] * divisor, 0},
-                                  {pressure[k] * divisor, 0}});
+            maps[step].push_back(
+                {static_cast<std::int64_t>(k), area_fraction[k] * divisor, pressure[k] * divisor});
 }
 
 void SparseMaps::fill(std::size_t step, std::span<double> map) const {

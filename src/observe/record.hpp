@@ -3,14 +3,14 @@
 // observe() reduces one realization to a RealizationRecord of plain numbers and vectors, which can
 // be written to a checkpoint.
 // Accumulators::add() adds records in the order of their realizations, independent of the thread,
-// rank or run that computed them; sums are exact (ExactSum), so that a campaign that goes on from
-// its checkpoint gives the same bits. finish() computes means and radial means.
+// rank or run that computed them, so that a campaign that goes on from its checkpoint gives the
+// same bits. finish() computes means and radial means.
 #pragma once
 
 #include "contact/level.hpp"
 #include "observe/distributions.hpp"
 #include "observe/map.hpp"
-#include "physics/stress/stress.hpp"
+#include "physics/physics.hpp"
 #include "surface/spectrum.hpp"
 
 namespace rsc {
@@ -22,7 +22,7 @@ struct ObserveOptions {
     std::vector<double>
         pdf_levels;  // separations at whose nearest levels distributions are computed [length]
     PdfBins pdf;
-    std::vector<double> stress_depths;  // [length]; empty: no stresses
+    std::vector<AskedCurves> curves = {};
 };
 
 // Surface of a realization. NaN means absent (for example m2 of asperities read from a file).
@@ -56,14 +56,14 @@ struct RealizationRecord {
     std::vector<MapLevel>
         maps;  // one per level; empty if it did not converge, as are distributions
     std::vector<Distributions> distributions;  // one per pdf level
-    std::vector<LargestStress> stresses;       // [step][depth]; empty: none are asked for
+    std::vector<double> curves;                // [step], of each as ObserveOptions::curves
 };
 
 // Reduces the levels of one realization to a record. Throws Error(internal) if a level holds a
 // value that is not finite.
 RealizationRecord observe(const ObserveOptions& options, std::int64_t realization,
                           const SurfaceStatistics& surface, const std::vector<Level>& levels,
-                          std::vector<LargestStress> stresses = {});
+                          std::vector<double> curves = {});
 
 // Index of the level (its separation, force or pressure) nearest to the wanted one, the first of
 // those that are equally near but for rounding;
@@ -79,13 +79,13 @@ struct Realizations {
     std::vector<std::int64_t> realization;
     std::vector<SurfaceStatistics> surface;  // [realization]
     std::vector<LevelValues> rows;           // [realization][step]
-    std::vector<LargestStress> stresses;     // [realization][step][depth]
+    std::vector<double> curves;              // [realization][step], as ObserveOptions::curves
 };
 
 // Sums over realizations of a cell of the coarse map.
 struct CellSums {
     std::int64_t cell = 0;
-    ExactSum area, force;  // [length^2], [force]
+    double area = 0, force = 0;  // [length^2], [force]
 };
 
 // Sums over realizations, written to the checkpoint of a campaign.
@@ -98,8 +98,8 @@ struct Accumulators : Realizations {
     // Records must be added by increasing realization and with the same number of levels; otherwise
     // throws Error(internal).
     void add(const RealizationRecord& record);
-    // Appends the sums over later realizations of the same case. The result is the same, bit for
-    // bit, as adding all records one by one.
+    // Appends the sums over later realizations of the same case. Within rounding the result is that
+    // of adding all records one by one.
     void append(const Accumulators& later);
     std::vector<std::int32_t> converged()
         const;  // number of realizations that converged, for each step

@@ -2,15 +2,18 @@
 
 #include "base/error.hpp"
 #include "physics/adhesion/adhesion.hpp"
+#include "physics/flow/flow_row.hpp"
 #include "physics/friction/friction_row.hpp"
 #include "physics/hardness/hardness.hpp"
 #include "physics/relaxation/relaxing_asperities.hpp"
+#include "physics/stress/stress_row.hpp"
 #include "physics/wear/wear.hpp"
 
 namespace rsc {
 namespace {
 
-const Physics* const kAll[] = {&kHardness, &kRelaxation, &kWear, &kAdhesion, &kFriction};
+const Physics* const kAll[] = {&kHardness, &kRelaxation, &kWear,  &kAdhesion,
+                               &kFriction, &kFlow,       &kStress};
 
 const Physics* named(std::string_view name) {
     for (const Physics* p : kAll)
@@ -21,6 +24,33 @@ const Physics* named(std::string_view name) {
 }  // namespace
 
 std::span<const Physics* const> all_physics() { return kAll; }
+
+std::span<const char* const> field_names() {
+    static const std::vector<const char*> all = [] {
+        std::vector<const char*> names = {"pressure", "gap", "contact", "heights"};
+        for (const Physics* p : kAll)
+            for (const PointField& f : p->fields) names.push_back(f.name);
+        return names;
+    }();
+    return all;
+}
+
+bool has_field(const Case& settings, std::string_view name) {
+    return std::ranges::any_of(settings.output.fields,
+                               [&](double f) { return field_names()[at(f)] == name; });
+}
+
+std::size_t AskedCurves::values() const {
+    std::size_t sum = 0;
+    for (const LevelCurve& c : physics->curves) sum += axis.size > 0 ? c.count(axis.size) : 0;
+    return sum;
+}
+
+std::size_t values_of(std::span<const AskedCurves> all) {
+    std::size_t sum = 0;
+    for (const AskedCurves& a : all) sum += a.values();
+    return sum;
+}
 
 BodyPhysics physics_of(const Case& settings) {
     BodyPhysics bodies;

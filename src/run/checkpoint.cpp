@@ -315,9 +315,9 @@ void transfer(Archive& a, T& x) {
         a(x);
     } else {
         if constexpr (std::is_same_v<Type, RealizationRecord>)
-            a(x.realization, x.surface, x.levels, x.stresses);
+            a(x.realization, x.surface, x.levels, x.curves);
         else
-            a(x.realization, x.surface, x.rows, x.stresses);
+            a(x.realization, x.surface, x.rows, x.curves);
         transfer_each(a, x.maps);
         transfer_each(a, x.distributions);
     }
@@ -355,7 +355,7 @@ void sums_from_bytes(std::string_view bytes, Accumulators& sums) {
         read.distributions.size() != sums.distributions.size() ||
         read.rows.size() != read.realization.size() * sums.steps ||
         read.surface.size() != read.realization.size() ||
-        read.stresses.size() != read.rows.size() * sums.options.stress_depths.size())
+        read.curves.size() != read.rows.size() * values_of(sums.options.curves))
         throw Error(Failure::internal, "the sums of a campaign do not match its case");
     sums = std::move(read);
 }
@@ -371,7 +371,7 @@ std::string archive_layout() {
     const std::uint32_t order = 0x01020304;
     char first = 0;
     std::memcpy(&first, &order, 1);
-    return joined("5,", int(first), ",", sizeof(SurfaceStatistics), ",", sizeof(LevelValues));
+    return joined("6,", int(first), ",", sizeof(SurfaceStatistics), ",", sizeof(LevelValues));
 }
 
 }  // namespace rsc

@@ -7,12 +7,9 @@
 #include "contact/make.hpp"
 #include "elements/deformed.hpp"
 #include "io/inputs.hpp"
-#include "physics/flow/flow.hpp"
 #include "physics/physics.hpp"
-#include "run/friction.hpp"
-#include "run/gap.hpp"
-#include "run/stress.hpp"
 #include "surface/synthesis.hpp"
+#include "trust/grid_error.hpp"
 #include "trust/judge.hpp"
 
 namespace rsc {
@@ -135,27 +132,30 @@ std::vector<std::int32_t> steps_of_fields(const Job& job) {
     return steps;
 }
 
-FieldsAsked fields_asked(const Job& job) {
+// In the order of ObserveOptions::curves.
+using Recorders = std::vector<std::unique_ptr<LevelRecorder>>;
+
+// Numbers of the fields of a physics that the case asks for.
+std::vector<std::size_t> rows_asked(const Job& job, const Physics& physics) {
+    std::vector<std::size_t> rows;
+    for (const auto k : indices(physics.fields))
+        if (has_field(job.settings, physics.fields[k].name)) rows.push_back(k);
+    return rows;
+}
+
+FieldsAsked fields_asked(const Job& job, const Recorders& recorders) {
     const Case& settings = job.settings;
     const auto& w = settings.output.field_window;
-    const auto has = [&](Field f) {
-        const auto& all = settings.output.fields;
-        return contains(all, double(f));
-    };
     FieldsAsked asked;
-    asked.pressure = has(Field::pressure);
-    asked.gap = has(Field::gap);
-    asked.contact = has(Field::contact);
-    asked.heights = has(Field::heights);
-    asked.flow = has(Field::flow);
-    asked.mises = has(Field::mises);
-    asked.shear = has(Field::shear);
-    asked.tension = has(Field::tension);
-    asked.traction = has(Field::traction);
+    asked.pressure = has_field(settings, "pressure");
+    asked.gap = has_field(settings, "gap");
+    asked.contact = has_field(settings, "contact");
+    asked.heights = has_field(settings, "heights");
     asked.worn = any_physics(settings, &Physics::reshapes);
-    asked.friction = settings.solids.friction;
-    asked.depths = job.observe.stress_depths;
-    asked.body = stressed_body(job);
+    for (const auto k : indices(recorders))
+        if (const AskedCurves& of = job.observe.curves[k]; true)
+            if (std::vector<std::size_t> rows = rows_asked(job, *of.physics); !rows.empty())
+                asked.physics.push_back({&of, recorders[k].get(), std::move(rows)});
     if (w[0]) asked.window = {*w[0], *w[1], *w[2], *w[3]};
     return asked;
 }
@@ -165,26 +165,9 @@ struct Pressed {
     std::unique_ptr<Path> contact;
     Judge judge;
     const HeightMap* map;  // of elements
+    const Recorders* recorders;
 };
 using MakePressed = std::function<Pressed()>;
-
-LevelSource source_of(const Job& job, Path& contact, Level& level) {
-    const auto& resistivity = job.settings.solids.resistivity;
-    return {contact, level, {resistivity[0], resistivity[1]}};
-}
-
-// Computes what a level has of its gap, and the flux at its points if a field asks for it.
-void measure_gap(const Job& job, const HeightMap& map, Path& contact, Level& level, std::size_t k) {
-    if (std::isnan(level.force)) return;  // there is no state
-    const bool field = fields_asked(job).flow && contains(steps_of_fields(job), std::int32_t(k));
-    LevelSource source = source_of(job, contact, level);
-    source.map = &map;
-    source.flux = field ? &level.flux : nullptr;
-    compute_quantities(source, Stage::gap);
-    if (job.settings.output.flow) compute_quantities(source, Stage::flow);
-    const PdfBins& bins = job.observe.pdf;
-    if (bins.gap_max > 0) level.gaps = count_gaps(gap_of(source), bins.bins, bins.gap_width());
-}
 
 // Solves level k of the case. `complete` adds what its status depends on.
 Level press(const Job& job, std::size_t k, Pressed& pressed,
@@ -194,10 +177,22 @@ Level press(const Job& job, std::size_t k, Pressed& pressed,
     if (!job.times.empty()) contact.set_time(job.times[k]);
     Level level = by_force ? contact.at_force(job.levels[k]) : contact.at_separation(job.levels[k]);
     if (!job.times.empty()) (job.slides ? level.distance : level.time) = job.times[k];
-    LevelSource source = source_of(job, contact, level);
-    compute_quantities(source, Stage::solution);
-    if (has_gap(job.settings)) measure_gap(job, *pressed.map, contact, level, k);
+    const auto& resistivity = job.settings.solids.resistivity;
+    const FieldsAsked fields = fields_asked(job, *pressed.recorders);
+    LevelSource source{
+        .contact = contact,
+        .level = level,
+        .resistivity = {resistivity[0], resistivity[1]},
+        .physics = &job.solver.physics,
+        .map = pressed.map,
+        .for_fields = !fields.physics.empty() && contains(steps_of_fields(job), std::int32_t(k)),
+        .gap_bins = job.observe.pdf.gap_max > 0 ? job.observe.pdf.bins : 0,
+        .gap_bin = job.observe.pdf.gap_width()};
+    compute_quantities(source, &job.settings);
     complete(level);
+    if (source.for_fields && !std::isnan(level.force))
+        for (const FieldsAsked::OfPhysics& one : fields.physics)
+            level.fields.push_back(one.recorder->fields_at(source));
     pressed.judge.judge(level, contact, by_force);
     return level;
 }
@@ -206,9 +201,10 @@ Level press(const Job& job, std::size_t k, Pressed& pressed,
 // the others, which begin with the first of their group. The loops of levels with few points are
 // too short to be shared by many threads. The groups, and with them the results, are the same for
 // any number of threads.
-bool independent_levels(const Job& job, const Path& contact) {
-    return by_elements(job.settings) && job.times.empty() && !contact.path_dependent() &&
-           !(job.settings.solids.friction > 0) && job.levels.size() >= kFewestGroups * kGroup;
+bool independent_levels(const Job& job, const Pressed& first) {
+    return by_elements(job.settings) && job.times.empty() && !first.contact->path_dependent() &&
+           job.levels.size() >= kFewestGroups * kGroup &&
+           std::ranges::none_of(*first.recorders, [](const auto& r) { return r->in_order(); });
 }
 
 class LevelGroups {
@@ -360,25 +356,35 @@ double unit_of_pressures(const Job& job) {
     return unit * job.indenter.period.area();
 }
 
+PreparedFacts facts_of(const Job& job) {
+    const bool elements = by_elements(job.settings);
+    double side = 0, points = 0;
+    if (job.given_heights) {
+        side = std::max(job.given_heights->dx, job.given_heights->dy);
+        points = double(job.given_heights->nx) * job.given_heights->ny;
+    } else if (elements && job.spectrum) {
+        const double n = element_points(job.settings, *job.spectrum);
+        side = job.spectrum->L / n;
+        points = n * n;
+    }
+    return {job.settings,
+            job.indenter,
+            job.theory,
+            job.sigma,
+            side,
+            points,
+            side > 0 ? side : job.domain.grid_step,
+            std::min(job.domain.Lx, job.domain.Ly),
+            elements};
+}
+
 // Refuses what asperities or elements cannot resolve or hold in memory.
-void require_feasible(const Job& job) {
-    const Case& settings = job.settings;
-    const auto& indentation = settings.indentation;
-    const bool elements = by_elements(settings);
-    if (elements && indentation.control == Control::separation &&
+void require_feasible(const Job& job, const PreparedFacts& facts) {
+    if (facts.elements && job.settings.indentation.control == Control::separation &&
         (job.given_heights || (job.spectrum && job.indenter.shape->flat())))
         require_open(job);
-    const double side = job.given_heights ? std::max(job.given_heights->dx, job.given_heights->dy)
-                        : elements && job.spectrum
-                            ? job.spectrum->L / element_points(settings, *job.spectrum)
-                            : 0.0;
-    for (const Physics* p : physics_asked(settings))
-        if (p->require_feasible)
-            p->require_feasible({settings, job.indenter, job.theory, job.sigma, side, elements});
-    if (settings.output.flow)
-        require_flow_memory(settings, job.given_heights
-                                          ? double(job.given_heights->nx) * job.given_heights->ny
-                                          : std::pow(element_points(settings, *job.spectrum), 2.0));
+    for (const Physics* p : physics_asked(job.settings))
+        if (p->require_feasible) p->require_feasible(facts);
 }
 
 }  // namespace
@@ -406,9 +412,11 @@ Job prepare(const Case& settings) {
         job.level_unit = job.sigma;
     if (indentation.control == Control::pressure) job.level_unit = unit_of_pressures(job);
     for (double& level : job.levels) level *= job.level_unit;
-    require_feasible(job);
+    const PreparedFacts facts = facts_of(job);
+    require_feasible(job, facts);
     job.observe = observe_options(settings, job.domain, job.indenter, job.sigma, sqrt_m4);
-    job.observe.stress_depths = stress_depths(job);
+    for (const Physics* p : physics_asked(settings))
+        if (p->recorder) job.observe.curves.push_back({p, p->axis ? p->axis(facts) : CurveAxis{}});
     return job;
 }
 
@@ -480,13 +488,13 @@ const HeightMap& heights_of(const Job& job, const Realization& r) {
 
 // The state of a level of which fields are requested.
 FieldLevel field_level(const Job& job, const Realization& r, Path& contact, std::size_t k,
-                       const Level& level, std::vector<double> flow) {
+                       Level& level) {
     const auto yielding = contact.asperities();
     return {std::int32_t(k), &level,
             yielding ? lowered_summits(heights_of(job, r), job.indenter.period.finite(), *yielding,
                                        contact.residual_depths())
                      : contact.residual_profile(),
-            contact.lasting_loads(level), std::move(flow)};
+            contact.lasting_loads(level), std::move(level.fields)};
 }
 
 }  // namespace
@@ -502,42 +510,52 @@ Realization realize(const Job& job, std::int64_t number, int threads,
         return map ? make_element_contact(*map, job.indenter, job.solver)
                    : make_asperity_contact(r.asperities, job.indenter, solver);
     };
-    std::optional<FrictionLevels> friction;
-    if (settings.solids.friction > 0) friction.emplace(settings, make_contact);
+    Recorders recorders;
+    for (const AskedCurves& of : job.observe.curves)
+        recorders.push_back(
+            of.physics->recorder({settings, job.indenter, map, of.axis.values, make_contact}));
     r.levels.reserve(job.levels.size());
     const std::vector<std::int32_t> field_steps = steps_of_fields(job);
     const MakePressed make = [&] {
-        return Pressed{make_contact(), Judge(solver, surface.judged), map};
+        return Pressed{make_contact(), Judge(solver, surface.judged), map, &recorders};
     };
     Pressed pressed = make();
     std::unique_ptr<Path>& contact = pressed.contact;
     std::vector<FieldLevel> fields;
+    const std::size_t each = values_of(job.observe.curves);
+    const auto record = [&](const Level& level) {
+        bool solved = true;
+        for (const auto& recorder : recorders) solved = recorder->record(level, r.curves) && solved;
+        return solved;
+    };
+    const bool grouped = independent_levels(job, pressed);
     const auto take = [&](std::size_t k, Level solved) {
         Level& level = r.levels.emplace_back(std::move(solved));
         const bool field = contains(field_steps, std::int32_t(k));
-        if (field && !std::isnan(level.force)) {  // a level without a state has none
-            fields.push_back(field_level(job, r, *contact, k, level, std::move(level.flux)));
-            if (fields_asked(job).traction)
-                fields.back().stuck = friction->stuck(level, kTractionSlide);
-        }
-        add_stresses(r.stresses, job, map, level);
+        if (field && !std::isnan(level.force))  // a level without a state has none
+            fields.push_back(field_level(job, r, *contact, k, level));
+        if (grouped) record(level);
+        if (map)
+            state_curve_errors(std::span(r.curves).last(each), job.observe.curves,
+                               std::max(map->dx, map->dy), settings, level,
+                               job.solver.surface.measured);
         if (on_level) on_level(k, level);
     };
-    if (independent_levels(job, *contact))
+    if (grouped)
         LevelGroups(job, pressed, make, take).press_all(threads);
     else
         for (const auto k : indices(job.levels))
             take(k, press(job, k, pressed, [&](Level& level) {
-                     if (friction && !friction->add(level, r.friction)) level.converged = false;
+                     if (!record(level)) level.converged = false;
                  }));
     r.residual_depth = contact->residual_depths();
     r.residual_profile = contact->residual_profile();
     if (!fields.empty())
         r.fields = fields_of(heights_of(job, r), job.indenter, job.solver.interaction, fields,
-                             fields_asked(job));
+                             fields_asked(job, recorders));
     if (const auto touched = contact->asperities(); touched && touched.get() != &r.asperities) {
         Asperities used = *touched;
-        friction.reset();
+        recorders.clear();
         contact.reset();
         r.asperities = std::move(used);
     }

@@ -42,8 +42,7 @@ struct Realization {
     SurfaceStatistics statistics;
     Asperities asperities;
     std::vector<Level> levels;
-    std::vector<LargestStress> stresses;  // [step][depth]
-    FrictionLoops friction;
+    std::vector<double> curves;  // [step], as ObserveOptions::curves
     // Residual depth of the asperities after the last level; empty without hardness.
     std::vector<double> residual_depth;
     ResidualProfile residual_profile;  // of elements that yielded, likewise

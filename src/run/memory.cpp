@@ -1,7 +1,6 @@
 #include "run/memory.hpp"
 
 #include "interaction/products.hpp"
-#include "physics/flow/permeability.hpp"
 #include "physics/physics.hpp"
 
 namespace rsc {
@@ -151,12 +150,11 @@ public:
         for (const double level : job_.levels) {
             const double contact =
                 flats ? points_ * share_in_contact(job_, level, by_force()) : under(level);
-            most = std::max(
-                most, (flats ? between_flats(contact) : pressed(contact)) + stresses(contact));
+            most = std::max(most, flats ? between_flats(contact) : pressed(contact));
             if (flats && job_.settings.run.realizations == 1) stored += kPixel * contact;
         }
         constexpr double record = 0.3e6;
-        return most + stored + record * static_cast<double>(job_.levels.size());
+        return most + more() + fields() + stored + record * static_cast<double>(job_.levels.size());
     }
 
 private:
@@ -169,8 +167,15 @@ private:
 
     double between_flats(double contact) const {
         constexpr double transforms = 28, touching = 150, gap = 80;
-        const double flow = job_.settings.output.flow ? permeability_bytes(points_) : 0;
-        return points_ * (transforms + each_ + gap) + touching * contact + flow;
+        return points_ * (transforms + each_ + gap) + touching * contact;
+    }
+
+    // Of physics, beside each point.
+    double more() const {
+        double sum = 0;
+        for (const Physics* p : physics_asked(job_.settings))
+            if (p->bytes) sum += p->bytes(points_);
+        return sum;
     }
 
     double pressed(double under) const {
@@ -198,23 +203,17 @@ private:
         return alone ? 1 : std::min(workers_, groups);
     }
 
-    // Of the stresses below a contact of so many points, and of the requested fields.
-    double stresses(double contact) const {
-        const auto& fields = job_.settings.output.fields;
-        const auto depths = static_cast<double>(job_.observe.stress_depths.size());
-        // Pressures and six components on a plane that holds the contact beside its surroundings
-        // (plane_stress.cpp), which at the largest depth are all of the surface.
-        constexpr double components = 7 * sizeof(double);
-        const double extent = job_.indenter.period.finite() ? 0 : std::sqrt(contact),
-                     planes = components * std::pow(std::sqrt(points_) + extent, 2);
+    // Of the requested fields; vectors that grow hold up to twice as much.
+    double fields() const {
         double values = 0;
-        for (const double field : fields)
-            values += is_stress(static_cast<Field>(static_cast<int>(field))) ? depths : 1;
+        for (const AskedCurves& asked : job_.observe.curves)
+            for (const PointField& f : asked.physics->fields)
+                if (f.along && has_field(job_.settings, f.name))
+                    values += static_cast<double>(asked.axis.size) - 1;
+        values += static_cast<double>(job_.settings.output.fields.size());
         const std::size_t levels =
             std::max<std::size_t>(1, job_.settings.output.field_levels.size());
-        // Vectors that grow hold up to twice as much.
-        return (depths > 0 ? planes : 0) +
-               2 * sizeof(double) * values * points_ * static_cast<double>(levels);
+        return 2 * sizeof(double) * values * points_ * static_cast<double>(levels);
     }
 
     const Job& job_;

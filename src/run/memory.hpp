@@ -22,7 +22,7 @@ struct ElementSize {
 ElementSize element_size(const Job& job, double Z0, double points_per_wave);
 
 // Memory [MB] of a run with `workers` realizations in parallel at its peak: of elements from the
-// sizes of the surface, the contact, the stresses and the fields, of coated asperities from the
+// sizes of the surface, the contact and the fields, of coated asperities from the
 // values of the kernel that are kept. 0 for other asperities, which need little. An estimate, not a
 // bound: of 12 cases the peak was 0.5 to 1.1 times as high, that of a roller 1.6 times.
 double expected_megabytes(const Job& job, double workers);

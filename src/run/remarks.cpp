@@ -14,6 +14,7 @@ struct Remarks {
     std::ostream& out;
     std::span<const LevelValues> levels;
     const Job& job;
+    std::span<const double> curves;
     const Case& c = job.settings;
     bool elements = by_elements(c);
     const char *l = c.run.length_unit.c_str(), *f = c.run.force_unit.c_str();
@@ -136,8 +137,9 @@ struct Remarks {
                 "with contacts wider than the top layer, or between flats pressed deep, the "
                 "asperity model may have no solution" +
                 to_elements();
-        else if (elements && !c.solids.relaxation_share.empty() && flats)
-            remedy = "bodies that relax may have closed the gap between flats; otherwise " + remedy;
+        for (const Physics* p : physics_asked(c))
+            if (elements && flats && p->may_close_gap)
+                remedy = joined(p->may_close_gap, "; otherwise ", remedy);
         say(failed,
             failure + "the residual is above solver%tolerance: do not use these values; " + remedy);
     }
@@ -195,12 +197,27 @@ struct Remarks {
             const std::vector<double>& radii = job.given->asperities.radius;
             summit = sum_of(radii) / double(radii.size());
         }
-        const RunFacts run{
-            c, levels, job.indenter, job.theory, summit, elements, [this](const LevelValues& l) {
-                return place_of(l);
-            }};
-        for (const Physics* p : physics_asked(c))
+        RunFacts run{c,
+                     levels,
+                     job.indenter,
+                     job.theory,
+                     summit,
+                     elements,
+                     [this](const LevelValues& l) { return place_of(l); },
+                     {},
+                     {}};
+        std::span<const double> last =
+            curves.last(std::min(curves.size(), values_of(job.observe.curves)));
+        for (const Physics* p : physics_asked(c)) {
+            run.axis = run.curves = {};
+            for (const AskedCurves& asked : job.observe.curves)
+                if (asked.physics == p && !last.empty()) {
+                    run.axis = asked.axis.values;
+                    run.curves = last.first(asked.values());
+                    last = last.subspan(asked.values());
+                }
             if (p->remark) p->remark(out, run);
+        }
     }
 
     // Effects that the model of this case neglects.
@@ -218,8 +235,9 @@ struct Remarks {
 
 }  // namespace
 
-void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const Job& job) {
-    Remarks{out, levels, job}.print();
+void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const Job& job,
+                   std::span<const double> curves) {
+    Remarks{out, levels, job, curves}.print();
 }
 
 void tell_unreached_heights(std::ostream& out, std::span<const SurfaceStatistics> surfaces,

@@ -12,10 +12,8 @@
 #include "observe/regimes.hpp"
 #include "run/checkpoint.hpp"
 #include "run/compare.hpp"
-#include "run/gap.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
-#include "run/stress.hpp"
 #include "run/team.hpp"
 
 namespace rsc {
@@ -86,8 +84,8 @@ void tell_failed(const RunOptions& options, const RunSummary& summary) {
 namespace {
 
 void summarise(std::ostream& out, const Job& job, const SurfaceStatistics& s,
-               std::span<const LevelValues> levels, std::span<const LargestStress> stresses,
-               double seconds, const std::string& file, bool replaces, const std::string& twins) {
+               std::span<const LevelValues> levels, std::span<const double> curves, double seconds,
+               const std::string& file, bool replaces, const std::string& twins) {
     out << '\n';
     if (by_elements(job.settings))
         out << "elements, ";
@@ -99,9 +97,7 @@ void summarise(std::ostream& out, const Job& job, const SurfaceStatistics& s,
         out << format("surface: rms height %.6g %s, rms slope %.4g%s\n", s.sigma,
                       job.settings.run.length_unit.c_str(), slope, slope_remark(slope));
     tell_unreached_heights(out, {&s, 1}, job);
-    print_remarks(out, levels, job);
-    print_gap(out, levels, job);
-    print_stresses(out, stresses, job);
+    print_remarks(out, levels, job, curves);
     if (!twins.empty()) out << twins << '\n';
     print_result(out, file, replaces);
 }
@@ -263,7 +259,6 @@ namespace {
 
 // Moves what a realization leaves into its result.
 void take_realization(Result& result, Job& job, Realization& r) {
-    result.friction = std::move(r.friction);
     result.asperities = std::move(r.asperities);
     result.residual_depth = std::move(r.residual_depth);
     result.residual_profile = std::move(r.residual_profile);
@@ -307,7 +302,7 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     }
     Accumulators sums(job.observe, job.levels.size());
     const RealizationRecord record = observe(job.observe, settings.run.first_realization,
-                                             r.statistics, r.levels, std::move(r.stresses));
+                                             r.statistics, r.levels, std::move(r.curves));
     sums.add(record);
     ComparedLevels compared;
     if (compares(job, options.compare_automatically))
@@ -324,7 +319,7 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     const std::string twins = write_twins(job, settings.output.file);
 
     if (table)
-        summarise(*table, job, r.statistics, record.levels, record.stresses, seconds_since(start),
+        summarise(*table, job, r.statistics, record.levels, record.curves, seconds_since(start),
                   settings.output.file, replaces, twins);
     const RunSummary summary = summary_of(result);
     tell_failed(options, summary);

@@ -8,7 +8,6 @@
 #include "io/inputs.hpp"
 #include "observe/regimes.hpp"
 #include "physics/physics.hpp"
-#include "run/gap.hpp"
 #include "trust/doubts.hpp"
 
 namespace rsc {
@@ -30,16 +29,8 @@ std::string name_of(Method method) { return kMethodNames[at(method)]; }
 
 namespace {
 
-// Columns that only two flats, or line contacts, have are shown for these only.
 bool shown(const LevelQuantity& q, const Job& job) {
-    if (!q.heading) return false;
-    if (q.always) return true;
-    if (q.of_flow) return job.settings.output.flow;
-    if (q.of_step) return !job.times.empty() && job.slides == (q.unit == nullptr);
-    if (q.member == LevelQuantity::Member(&LevelValues::worn_volume))
-        return any_physics(job.settings, &Physics::reshapes);
-    const bool line = q.member == LevelQuantity::Member(&LevelValues::force_per_length);
-    return line ? job.indenter.period.line() : job.indenter.period.finite();
+    return q.heading && (q.shown ? q.shown(job.settings) : q.always);
 }
 
 // Whether separations are shown in rms heights, too; a ball under a prescribed force may be pressed
@@ -442,7 +433,6 @@ void print_campaign_summary(std::ostream& out, const Job& job, const Observation
     }
     tell_unreached_heights(out, o.surface, job);
     print_remarks(out, o.rows, job);
-    print_gap(out, o.rows, job);
     print_result(out, file, replaces);
 }
 

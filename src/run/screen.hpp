@@ -27,8 +27,9 @@ void print_heading(std::ostream& out, const Job& job);
 void print_level(std::ostream& out, const Job& job, std::size_t number, const Level& level);
 
 // Methods of the levels with reasons for fallbacks; number of levels, meaning and remedy of each
-// status; warnings.
-void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const Job& job);
+// status; warnings. `curves`: those of all levels of a single realization.
+void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const Job& job,
+                   std::span<const double> curves = {});
 
 // A remark on rms slopes too large for the theory; empty for small ones.
 const char* slope_remark(double rms_slope);

@@ -123,8 +123,8 @@ std::string CampaignWork::operator()(const Task& task, const std::atomic<bool>& 
         const Watch watch(go_on);
         const Realization r = realize(*ready, task.realization, 1);
         go_on();
-        return to_bytes(observe(ready->observe, task.realization, r.statistics, r.levels,
-                                std::move(r.stresses)));
+        return to_bytes(
+            observe(ready->observe, task.realization, r.statistics, r.levels, std::move(r.curves)));
     } catch (const Error& error) {
         throw Error(error.kind(), which + error.what());
     } catch (const std::bad_alloc&) {

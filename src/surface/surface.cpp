@@ -82,9 +82,7 @@ double* allocate_doubles(std::size_t n, const char* purpose, bool zeros) {
     return static_cast<double*>(p);
 }
 
-void HeightMap::Free::operator()(double* p) const noexcept {
-    if (owned) std::free(p);
-}
+void HeightMap::Free::operator()(double* p) const noexcept { std::free(p); }
 
 void HeightMap::allocate(int nx_, int ny_, std::ptrdiff_t stride_, bool zeros) {
     if (nx_ < 1 || ny_ < 1 || stride_ < nx_)
@@ -151,22 +149,6 @@ Moments grid_moments(const HeightMap& map) {
     m.m2 = g2.value() / 2.0;
     m.m4 = (m40.value() + m04.value() + 3.0 * m22.value()) / 3.0;
     return m;
-}
-
-HeightMap every_second_point_of(const HeightMap& map, int column, int row) {
-    HeightMap view;
-    static_cast<PointGrid&>(view) = {(map.nx - column + 1) / 2,
-                                     (map.ny - row + 1) / 2,
-                                     2 * map.dx,
-                                     2 * map.dy,
-                                     map.x(column),
-                                     map.y(row)};
-    view.stride = 2 * map.stride;
-    view.every = 2 * map.every;
-    view.periodic = map.periodic;
-    double* const first = map.data.get() + row * map.stride + std::ptrdiff_t{column} * map.every;
-    view.data = std::unique_ptr<double[], HeightMap::Free>(first, HeightMap::Free(false));
-    return view;
 }
 
 }  // namespace rsc

@@ -41,11 +41,7 @@ constexpr int continued(int i, int n, bool repeats) {
 struct HeightMap : PointGrid {
     std::ptrdiff_t stride = 0;
     bool periodic = false;  // true for synthetic surfaces, false for measured ones
-    int every = 1;  // columns between points; only maps of every_second_point_of have more than 1
     struct Free {
-        bool owned;  // false: the heights belong to another map
-        Free() noexcept : owned(true) {}
-        explicit Free(bool owns) noexcept : owned(owns) {}
         void operator()(double* p) const noexcept;
     };
     std::unique_ptr<double[], Free> data;
@@ -56,7 +52,7 @@ struct HeightMap : PointGrid {
     HeightMap copy() const;  // without padding between rows
     double* row(int j) { return data.get() + j * stride; }
     const double* row(int j) const { return data.get() + j * stride; }
-    double operator()(int i, int j) const { return row(j)[static_cast<std::ptrdiff_t>(i) * every]; }
+    double operator()(int i, int j) const { return row(j)[i]; }
 };
 
 // Mean of value(z, i, j) over the points of a map that are not missing (NaN), summed row by row,
@@ -88,10 +84,5 @@ inline constexpr std::array kNormaliseNames = {"sample", "ensemble"};
 // only differences inside it are used; all moments of a too small map are zero. Differences that
 // contain missing points (NaN) are left out.
 Moments grid_moments(const HeightMap& map);
-
-// Every second point of a map along both sides, from the first one on, or from column 1 or row 1:
-// the map of a measurement half as fine. Not a copy: its heights are those of `map`, which must
-// outlive it. Read it by (i, j), not by row().
-HeightMap every_second_point_of(const HeightMap& map, int column = 0, int row = 0);
 
 }  // namespace rsc

@@ -10,11 +10,6 @@ namespace {
 // twice as fine (kinds map and mapflat of input/trust/resolution.py).
 constexpr double kRead = 1.5;
 
-// Largest stresses, over border_share, at the surface; they fall with the depth in pixels. The
-// tension behind the edge of a sliding contact rises like the root of the distance, and so does its
-// error. input/trust/resolution.py makes them (fit, sliding).
-constexpr double kMises = 0.14, kShear = 0.16, kTension = 0.05, kSlidingEdge = 0.5;
-
 // Elements, sharp punches on a plane: N differs from 2 a E* d by up to this share of the ratio of
 // pixel side to radius, in nine of ten cases (input/trust/resolution.py, kind edge).
 constexpr double kEdgeShare = 0.17;
@@ -81,16 +76,14 @@ double error_of_resolution(const LevelQuantity& quantity, std::size_t component,
     return quantity.error_factor * level.border_share * averaged * (read ? kRead : 1.0);
 }
 
-void state_errors(LargestStress& stress, double depth, bool sliding, const LevelValues& level,
-                  bool read) {
-    const double border = level.border_share * (read ? kRead : 1.0);
-    const double shallow = 1 + 2 * depth;
-    stress.mises.error = kMises * border * std::pow(shallow, -0.75);
-    stress.shear.error = kShear * border * std::pow(shallow, -0.75);
-    double tension = kTension * border / shallow * stress.mises.value;
-    if (sliding)
-        tension += kSlidingEdge * std::sqrt(border) / shallow * std::abs(stress.tension.value);
-    stress.tension.error = tension / std::abs(stress.tension.value);
+void state_curve_errors(std::span<double> curves, std::span<const AskedCurves> asked, double step,
+                        const Case& settings, const LevelValues& level, bool read) {
+    for (const AskedCurves& a : asked) {
+        if (a.physics->curve_errors)
+            a.physics->curve_errors(curves.first(a.values()), a.axis.values, step, settings, level,
+                                    level.border_share * (read ? kRead : 1.0));
+        curves = curves.subspan(a.values());
+    }
 }
 
 GridError error_of_grid(const LevelValues& level, const Indenter& indenter, double side,

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "contact/quantities.hpp"
-#include "physics/stress/stress.hpp"
+#include "physics/physics.hpp"
 #include "surface/surface.hpp"
 
 namespace rsc {
@@ -29,13 +29,11 @@ struct PlaceOfTip {
 double error_of_resolution(const LevelQuantity& quantity, std::size_t component,
                            const LevelValues& level, bool read);
 
-// States the errors of the largest stresses at a depth [pixels] of boundary elements. That of the
-// tension, which may vanish, is in proportion to von Mises's stress there. Without a level at rest,
-// `sliding`, the tension at the surface is that behind the edges of contacts.
-void state_errors(LargestStress& stress, double depth, bool sliding, const LevelValues& level,
-                  bool read);
+// States the errors of the curves of a level of boundary elements with pixels of this side [length].
+void state_curve_errors(std::span<double> curves, std::span<const AskedCurves> asked, double step,
+                        const Case& settings, const LevelValues& level, bool read);
 
-// The same of N and A, and of N for a punch whose edge lies between points `side` apart [length].
+// Expected relative errors of N and A, and of N for a punch whose edge lies between points `side` apart [length].
 GridError error_of_grid(const LevelValues& level, const Indenter& indenter, double side, bool read);
 
 // Lower bounds of the errors of contacts on ridges, whose crests lie between the points: a contact

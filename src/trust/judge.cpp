@@ -1,5 +1,6 @@
 #include "trust/judge.hpp"
 
+#include "physics/adhesion/sticking.hpp"
 #include "physics/physics.hpp"
 #include "trust/asperity_error.hpp"
 #include "trust/counts.hpp"
@@ -82,7 +83,8 @@ Doubt edges_of_adhesion(const Level& level, const Indenter& indenter, const Heig
                         bool read, const SolverOptions& options) {
     Doubt doubt{Cause::grid};
     if (level.force == 0) return doubt;
-    const double traction = options.physics.adhesion.work / options.physics.adhesion.range,
+    const double traction =
+                     options.physics.of<Adhesion>().work / options.physics.of<Adhesion>().range,
                  attracting = level.area + level.cohesive_area, pulled = traction * attracting,
                  contacts = std::max(level.contacts, 1);
     // Of n equal contacts the edges are longer by sqrt(n), and their errors cancel as much.
@@ -183,7 +185,7 @@ std::vector<Doubt> Judge::of_elements(const Level& level, Path& contact, bool by
         if (level.separation < touch_between(contact)) doubts.push_back({Cause::missed_contact});
         return doubts;
     }
-    if (options_.physics.adhesion.work > 0 && level.cohesive_resolution < kResolved)
+    if (options_.physics.of<Adhesion>().work > 0 && level.cohesive_resolution < kResolved)
         doubts.push_back({Cause::adhesion_range});
     doubts.push_back(grid(level, contact));
     if (level.with_half_the_steps) {
@@ -222,7 +224,7 @@ Doubt Judge::grid(const Level& level, Path& contact) const {
     const Indenter& indenter = contact.indenter();
     const HeightMap& map = *surface_.map;
     const bool read = options_.surface.measured;
-    if (options_.physics.adhesion.work > 0)
+    if (options_.physics.of<Adhesion>().work > 0)
         return edges_of_adhesion(level, indenter, map, read, options_);
     Doubt doubt{Cause::grid};
     const double stiffness = std::isnan(level.stiffness) ? contact.stiffness() : level.stiffness;

@@ -159,25 +159,6 @@ void test_loops_inside_pieces() {
     CHECK_THROWS(rsc::parallel_for(outer, 1, threads, refuse), std::domain_error);
 }
 
-// Of two pieces, one of which is a loop of eight: two cores take half of all, four share the loop.
-void test_profile_of_loops() {
-    const auto spend = [] {
-        const std::clock_t end = std::clock() + CLOCKS_PER_SEC / 50;
-        while (std::clock() < end) {
-        }
-    };
-    rsc::LoopProfile profile({1, 2, 4});
-    rsc::parallel_for(2, 1, 0, [&](int i) {
-        if (i == 0) return spend();
-        rsc::parallel_for(8, 1, 0, [&](int) { spend(); });
-    });
-    CHECK(profile.loops() == 1);
-    CHECK(std::abs(profile.seconds(0) / profile.seconds() - 1) < 1e-9);
-    CHECK(profile.seconds(1) < 0.75 * profile.seconds());
-    CHECK(profile.seconds(2) < 0.4 * profile.seconds());
-    CHECK(profile.seconds(2) > 0.24 * profile.seconds());
-}
-
 void test_more_threads_than_work() {
     const CaseHandle c = small_case("");
     AsperitiesHandle asperities;
@@ -236,7 +217,6 @@ TEST(guest_threads) {
     CHECK(in_child(with_little_memory) <= 1);
 #endif
     test_loops_inside_pieces();
-    test_profile_of_loops();
     test_more_threads_than_work();
     test_fork();
     test_lock();

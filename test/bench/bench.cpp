@@ -6,6 +6,7 @@
 #include <fftw3.h>
 
 #include "base/parallel.hpp"
+#include "physics/adhesion/sticking.hpp"
 #include "support/paths.hpp"
 #include "surface/detection.hpp"
 
@@ -112,7 +113,7 @@ void bench_adhesion() {
     SolverOptions options{.surface = {.sigma = 0.01}};
     Level last;
     const auto levels = [&](double work) {
-        options.physics.adhesion.work = work;
+        options.physics.of<Adhesion>().work = work;
         const auto contact = make_asperity_contact(a, kGold, options);
         double jumps = 0;
         for (int k = 0; k <= (work > 0 ? 200 : 100); ++k) {

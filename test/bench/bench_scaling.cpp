@@ -1,11 +1,8 @@
-// Whole cases on 1, 2, 4, ... threads up to all processors, each run in a process of its own, and
-// where the time of one thread goes: how much of it lies outside parallel loops, how many of those
-// there are and how long they take, and what this lets expect of more cores if memory were no
-// limit. Run it on an idle machine.
+// Whole cases on 1, 2, 4, ... threads up to all processors, each run in a process of its own. Run
+// it on an idle machine.
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/parallel.hpp"
 #include "bench.hpp"
 #include "case/read_case.hpp"
 #include "run/run.hpp"
@@ -50,12 +47,6 @@ double on_wall() {
         .count();
 }
 
-double of_this_thread() {
-    timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-}
-
 void run(const ScalingCase& one, int threads, const std::string& file) {
     Case settings = read_case_text(std::string(one.text) +
                                        "&compare levels = 'none' /"
@@ -84,23 +75,6 @@ bool apart(const std::function<void()>& work, rusage& used) {
     }
     int status = 0;
     return wait4(child, &status, 0, &used) == child && status == 0;
-}
-
-// One thread: the time outside parallel loops is that of the first thread without its loops;
-// realizations run on other threads, and count as evenly shared.
-void profile(const ScalingCase& one, const std::string& file) {
-    const std::vector<int> cores{2, 4, 8, 16, 32, 64};
-    const double start = now(), own = of_this_thread();
-    LoopProfile loops(cores);
-    run(one, 16, file);  // as many shares as for many threads
-    const double all = now() - start, outside = of_this_thread() - own - loops.seconds(),
-                 tasks = all - outside - loops.seconds();
-    std::printf("  one thread %.2f s, %.2f s outside loops; %ld loops of %.0f us; by count on", all,
-                outside, loops.loops(),
-                1e6 * loops.seconds() / double(std::max(1L, loops.loops())));
-    for (std::size_t k = 0; k < cores.size(); ++k)
-        std::printf(" %d: %.1f", cores[k], all / (outside + loops.seconds(k) + tasks / cores[k]));
-    std::printf(" times as fast\n");
 }
 
 }  // namespace
@@ -134,7 +108,6 @@ void scaling() {
                         wall_of_one / wall, work, work / work_of_one,
                         double(used.ru_maxrss) / 1024);
         }
-        apart([&] { profile(one, file); }, used);
     }
     std::remove(file.c_str());
 }

@@ -9,6 +9,8 @@
 #include "contact/make.hpp"
 #include "interaction/lattice.hpp"
 #include "interaction/pixel_kernels.hpp"
+#include "physics/hardness/hardness.hpp"
+#include "support/bodies.hpp"
 #include "support/height_maps.hpp"
 #include "truth/elimination.hpp"
 
@@ -25,7 +27,7 @@ constexpr std::array<double, 2> kResistivity = {2, 3};
 
 void complete(Path& contact, Level& level) {
     LevelSource source{contact, level, kResistivity};
-    compute_quantities(source, Stage::solution);
+    compute_quantities(source);
 }
 
 struct Truth {
@@ -90,7 +92,7 @@ struct Truth {
 
     // p and w at a separation; false: the conditions of contact were not met.
     bool press(double Z0) {
-        const double H = options.physics.hardness.H0;
+        const double H = options.physics.of<Hardness>().H0;
         std::vector<int> state(n());  // 0 without pressure, 1 free, 2 at the hardness
         for (const std::size_t k : indices(n())) state[k] = height(k) > Z0;
         for (int round = 0; round < 200; ++round) {
@@ -133,7 +135,7 @@ struct Truth {
     // The level stays: what penetrates at the hardness is gone.
     void accept() {
         for (const std::size_t k : indices(n()))
-            if (p[k] >= options.physics.hardness.H0 && w[k] < 0) {
+            if (p[k] >= options.physics.of<Hardness>().H0 && w[k] < 0) {
                 pressed[k] -= w[k];
                 z[k] += w[k];
                 w[k] = 0;
@@ -180,7 +182,7 @@ void same(double value, double truth, double scale, const char* what) {
 // Contacts, their areas and what follows of them are computed once more from the pixels in
 // test_every_value.
 void whole_level(const Level& level, const Truth& t, double Z0) {
-    const double H = t.options.physics.hardness.H0, pixel = t.pixel(), sigma = 0.01;
+    const double H = t.options.physics.of<Hardness>().H0, pixel = t.pixel(), sigma = 0.01;
     std::vector<std::size_t> touching;
     double force = 0, pressed = 0, most = 0;
     long candidates = 0;
@@ -244,7 +246,7 @@ void along_a_path(const HeightMap& map, const Indenter& tip, double hardness, co
     SolverOptions options{
         .tolerance = kTolerance,
         .max_iterations = 500,
-        .physics = {.hardness = {.H0 = hardness}},
+        .physics = bodies_with(Hardness{.H0 = hardness}),
         .surface = {.mean_spacing = 0.1, .extent = {map.x0, map.y0, map.Lx(), map.Ly()}}};
     const auto contact = make_element_contact(map, tip, options);
     Truth t(map, tip, options);
@@ -322,7 +324,8 @@ TEST(certificate) {
             map.periodic = repeats;
             Indenter tip{kE, repeats ? kInfinity : 20.0, 0.47, 0.07, {}};
             if (repeats) tip.period = {map.Lx(), map.Ly()};
-            SolverOptions options{.tolerance = 3e-3, .physics = {.hardness = {.H0 = hardness}}};
+            SolverOptions options{.tolerance = 3e-3,
+                                  .physics = bodies_with(Hardness{.H0 = hardness})};
             const auto contact = make_element_contact(map, tip, options);
             const Level level = contact->at_separation(0.006);
             const Truth t(map, tip, options);

@@ -9,6 +9,7 @@
 #include "check.hpp"
 #include "contact/equivalent.hpp"
 #include "interaction/lattice.hpp"
+#include "physics/hardness/hardness.hpp"
 #include "support/asperities.hpp"
 #include "support/height_maps.hpp"
 #include "support/paths.hpp"
@@ -293,10 +294,10 @@ TEST(hardness_of_the_top) {
     const Indenter tip = layered(body_of({{0.1, 3, 0.4}, {0.1, 9, 0.2}}, 1, 0.3), 100.0, 0.5, 0.5);
     SolverOptions options{.method = Method::direct, .tolerance = 1e-9, .surface = {.sigma = 0.01}};
     const Level elastic = asperity_path(asperities, tip, options).at_separation(0.012);
-    options.physics.hardness.H0 = 1e-2 * elastic.force / elastic.area;
+    options.physics.of<Hardness>().H0 = 1e-2 * elastic.force / elastic.area;
     const Level yields = asperity_path(asperities, tip, options).at_separation(0.012);
     CHECK(yields.force > 0 && yields.force < elastic.force &&
-          yields.force <= options.physics.hardness.H0 * yields.area * (1 + 1e-9));
+          yields.force <= options.physics.of<Hardness>().H0 * yields.area * (1 + 1e-9));
     // The same table for the same body, as long as it is in use.
     const auto table = layers_of(tip.layers, tip.E_star);
     CHECK(layers_of(tip.layers, tip.E_star) == table);

@@ -65,8 +65,6 @@ TEST(test_oblong_maps) {
     }
 }
 
-__extension__ using Wide = __int128;
-
 // Of two spots one is under tension: it has an area, but no place among the pressures. Without
 // contacts numbers are absent, not zero.
 TEST(test_tension) {
@@ -80,39 +78,6 @@ TEST(test_tension) {
     CHECK_RELATIVE(fit.mean_pressure_moments.mean, 1 / pi, 1e-14);
     const ShownDistributions none = shown_distributions(bins, distributions_of(bins, Level{}, 0));
     CHECK(std::isnan(none.spot_area_moments.mean) && std::isnan(none.mean_pressure_pdf[0]));
-}
-
-// Against integers: in any order, in any groups.
-TEST(test_exact_sums) {
-    constexpr double kScale = 1e-3;
-    const double quantum = quantum_of(kScale, 64);
-    std::mt19937_64 random(7);
-    std::vector<double> values(5000);
-    for (double& v : values)
-        v = kScale *
-            std::exp2(-40.0 * std::generate_canonical<double, 53>(random));  // of very unlike sizes
-    Wide truth = 0;
-    for (double v : values) {
-        CHECK(std::abs(exact_term(v, quantum).high - v) <= quantum / 2);
-        truth += static_cast<Wide>(exact_term(v, quantum).high / quantum);
-    }
-    for (int trial = 0; trial < 5; ++trial) {
-        ExactSum whole, group;
-        for (const auto k : indices(values)) {
-            group.add(exact_term(values[k], quantum));
-            if (random() % 10 == 0 || k + 1 == values.size()) {
-                whole.add(group);
-                group = {};
-            }
-        }
-        const Wide high = static_cast<Wide>(whole.high / quantum);
-        CHECK(high + static_cast<Wide>(whole.low / quantum) == truth);
-        CHECK(whole.high == double(truth) * quantum);  // the nearest double
-        std::shuffle(values.begin(), values.end(), random);
-    }
-    // Where the quantum would leave the range of doubles, and of nothing.
-    CHECK(exact_term(1e-305, quantum_of(1e-300, 64)).high == 1e-305);
-    CHECK(exact_term(0.3, quantum_of(0, 0)).high == 0.3);
 }
 
 }  // namespace test_observe

@@ -20,7 +20,16 @@ TEST(rows_of_physics) {
             CHECK(x.when ? full_name(key_of(x.other)) == x.other : names.contains(x.other));
             CHECK(!x.key || full_name(key_of(x.key)) == x.key);
         }
-        for (const LevelQuantity& q : p->quantities) CHECK(find_quantity(q.name).has_value());
+        for (const LevelQuantity& q : p->quantities)
+            CHECK(std::ranges::count(level_quantities(), std::string_view(q.name),
+                                     &LevelQuantity::name) == 1);
+        CHECK(p->recorder || (p->curves.empty() && p->fields.empty()));
+        CHECK(p->axis || p->curves.empty());
+        for (const LevelCurve& c : p->curves)
+            CHECK(c.error.empty() ||
+                  std::ranges::count(p->curves, c.error, &LevelCurve::name) == 1);
+        for (const PointField& f : p->fields)
+            CHECK(contains(field_names(), std::string_view(f.name)));
     }
 }
 

@@ -38,9 +38,7 @@ RealizationRecord observed(const Job& job, int k) {
 
 // Within the rounding of a mean and of a sum.
 bool alike(const std::vector<CellSums>& a, const std::vector<CellSums>& b) {
-    const auto near = [](const ExactSum& x, const ExactSum& y) {
-        return std::abs(x.high - y.high) <= 4e-16 * std::abs(y.high);
-    };
+    const auto near = [](double x, double y) { return std::abs(x - y) <= 1e-15 * std::abs(y); };
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                       [&](const CellSums& x, const CellSums& y) {
                           return x.cell == y.cell && near(x.area, y.area) && near(x.force, y.force);
@@ -65,12 +63,12 @@ TEST(test_archive) {
     }
     CHECK(to_bytes(again) == to_bytes(sums));
     CHECK(to_bytes(restored) == to_bytes(sums));
-    // Summed in groups, and after a way through a file, they are the same.
+    // Summed in groups, and after a way through a file, they are the same within rounding.
     Accumulators left(job.observe, job.levels.size()), right = left;
     for (int k = 1; k <= 6; ++k) (k <= 2 ? left : right).add(observed(job, k));
     CHECK_THROWS(Accumulators(right).append(left), Error);
     left.append(right);
-    CHECK(to_bytes(left) == to_bytes(sums));
+    for (const std::size_t s : indices(sums.steps)) CHECK(alike(left.maps[s], sums.maps[s]));
     const Observations o = sums.finish();
     std::vector<double> area(job.observe.map.cells()), pressure = area;
     for (const std::size_t s : indices(sums.steps)) {

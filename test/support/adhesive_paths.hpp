@@ -9,6 +9,7 @@
 #include "check.hpp"
 #include "contact/make.hpp"
 #include "support/asperities.hpp"
+#include "support/bodies.hpp"
 #include "truth/elimination.hpp"
 
 // Asperities on the unit square at distances of at least `apart`, and a work of adhesion.
@@ -35,7 +36,7 @@ inline RandomAsperities random_asperities(int n, unsigned seed, double apart) {
 }
 
 inline rsc::SolverOptions sticky(double w, double range) {
-    return {.tolerance = 1e-12, .physics = {.adhesion = {w, range}}};
+    return {.tolerance = 1e-12, .physics = bodies_with(rsc::Adhesion{w, range})};
 }
 
 inline constexpr double kE = 5.0;  // E* of these contacts

@@ -85,15 +85,6 @@ TEST(borders) {
     CHECK(level.pixels_per_contact == 320);
 }
 
-// Points of the coarser map lie on those of the finer one.
-TEST(coarser) {
-    const HeightMap map =
-        height_map(17, 12, 1.0, 1.0, [](int i, int j) { return i * i - 3.0 * j; });
-    const HeightMap half = every_second_point_of(map).copy();
-    CHECK(half.nx == 9 && half.ny == 6 && half.dx == 2);
-    CHECK(half.x0 == map.x0 && half(8, 5) == map(16, 10));
-}
-
 TEST(filled) {
     std::vector<std::uint8_t> missing(16);
     missing[5] = 1;  // the point (1, 1)

@@ -5,6 +5,7 @@
 #include "elements/pixel_spots.hpp"
 #include "physics/adhesion/adhesive_contact.hpp"
 #include "physics/adhesion/adhesive_elements.hpp"
+#include "physics/adhesion/sticking.hpp"
 
 namespace rsc {
 namespace {
@@ -46,7 +47,11 @@ std::vector<LevelQuantity> adhesion_quantities() {
          .force_power = 1,
          .meaning = "smallest force since the first level",
          .comment = "adhesion: including forces between levels; pull_off_force is its last value",
-         .always = false},
+         .always = false,
+         .least = "pull_off_force",
+         .least_meaning = "smallest force since the first level",
+         .least_comment = "adhesion: including forces between levels; negative if separating the "
+                          "bodies takes a tensile force; missing if a level has no state"},
         {.name = "cohesive_area",
          .member = &V::cohesive_area,
          .length_power = 2,
@@ -161,7 +166,7 @@ void require_feasible(const PreparedFacts& facts) {
     require_resolved(facts.indenter.E_star, {s.adhesion, s.adhesion_range}, facts.side);
 }
 
-bool has_range(const Combination& c) { return c.bodies.adhesion.range > 0; }
+bool has_range(const Combination& c) { return c.bodies.of<Adhesion>().range > 0; }
 
 std::unique_ptr<Model> make_elements_that_attract(const HeightMap& heights,
                                                   const Indenter& indenter,
@@ -177,9 +182,9 @@ const Physics kAdhesion = {
     .keys = adhesion_keys,
     .take =
         [](const Case& c, BodyPhysics& bodies) {
-            bodies.adhesion = {c.solids.adhesion, c.solids.adhesion_range};
+            bodies.of<Adhesion>() = {c.solids.adhesion, c.solids.adhesion_range};
         },
-    .asked = [](const BodyPhysics& bodies) { return bodies.adhesion.work > 0; },
+    .asked = [](const BodyPhysics& bodies) { return bodies.of<Adhesion>().work > 0; },
     .excludes = {{"hardness"},
                  {"friction"},
                  {"relaxation"},

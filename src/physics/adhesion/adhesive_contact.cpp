@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "physics/adhesion/adhesive_path.hpp"
+#include "physics/adhesion/sticking.hpp"
 
 namespace rsc {
 namespace {
@@ -56,7 +57,7 @@ private:
         return path_->begin(path_->accepted.separation) && !path_->lost_way &&
                !path_->here.active.empty();
     }
-    double attraction() const override { return path_->options.physics.adhesion.range; }
+    double attraction() const override { return path_->options.physics.of<Adhesion>().range; }
     void accept(Level&) override {
         path_->accepted = path_->now;
         path_->accepted.jumps = 0;
@@ -120,7 +121,7 @@ Level AdhesiveAsperities::report() {
         l.beyond_law += state.beyond || my.law->footprint(i, my.now.s[k]).beyond;
     }
     complete_level(l, *my.law, my);
-    if (my.options.physics.adhesion.range > 0) l.cohesive_area = cohesive;
+    if (my.options.physics.of<Adhesion>().range > 0) l.cohesive_area = cohesive;
     l.jumps = my.jumps + my.accepted.jumps;
     l.energy_lost = my.now.lost;
     l.least_force = my.now.least_force;

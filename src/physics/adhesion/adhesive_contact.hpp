@@ -14,7 +14,7 @@
 
 namespace rsc {
 
-// Asperities and indenter as for AsperityModel; options.physics.adhesion.work is positive. Throws
+// Asperities and indenter as for AsperityModel; the work of adhesion is positive. Throws
 // Error(bad_input) for options that are not available with adhesion.
 //
 // energy() is the elastic energy minus w A, with dW/dZ0 = -N; 0 if nothing is attached. If

@@ -12,6 +12,7 @@
 #pragma once
 
 #include "contact/model.hpp"
+#include "physics/adhesion/sticking.hpp"
 #include "surface/surface.hpp"
 
 namespace rsc {

@@ -1,6 +1,7 @@
 #include "physics/adhesion/adhesive_path.hpp"
 
 #include "base/error.hpp"
+#include "physics/adhesion/sticking.hpp"
 
 namespace rsc {
 namespace {
@@ -28,11 +29,11 @@ AdhesivePath::AdhesivePath(const Asperities& asperities_, const Indenter& indent
                            const SolverOptions& options_)
     : ContactBodies(asperities_, indenter_, options_),
       law(make_law(options_.law, asperities, indenter_.E_star, of_difference.get())),
-      sticking(*law, options_.physics.adhesion.work, options_.physics.adhesion.range),
+      sticking(*law, options_.physics.of<Adhesion>().work, options_.physics.of<Adhesion>().range),
       direct(make_direct_products(kernel)),
       solver(sticking) {
     for (std::size_t i = 0; of_difference && i < asperities.size(); ++i) of_difference->shift(i);
-    margin = options.physics.adhesion.range;
+    margin = options.physics.of<Adhesion>().range;
     ranking.assign(asperities, indenter);
 }
 
@@ -156,7 +157,7 @@ double AdhesivePath::raised() const {
                         -solver.phi()[at(products->active()[k])] -
                             state.f * kernel->near() / std::sqrt(state.outer / std::numbers::pi));
     }
-    const double range = options.physics.adhesion.range;
+    const double range = options.physics.of<Adhesion>().range;
     return 1.2 * most > margin - range ? 2 * most + range : 0.0;
 }
 
@@ -177,7 +178,7 @@ void AdhesivePath::complete(Point& point, double accuracy) {
 bool AdhesivePath::begin(double target) {
     now = accepted;
     // Sets of points, and the rounding of sums over them, depend on nothing else.
-    margin = std::max(options.physics.adhesion.range, now.margin);
+    margin = std::max(options.physics.of<Adhesion>().range, now.margin);
     jumps = steps = 0;
     products_before = direct->count() + (mesh ? mesh->count() : 0);
     lost_way = false;

@@ -5,6 +5,7 @@
 #include "elements/connected_pixels.hpp"
 #include "elements/pixel_spots.hpp"
 #include "physics/adhesion/adhesive_elements.hpp"
+#include "physics/adhesion/sticking.hpp"
 
 namespace rsc {
 namespace {
@@ -154,10 +155,11 @@ AdhesivePixels::AdhesivePixels(const HeightMap& heights_, const Indenter& indent
       heights(heights_),
       indenter(indenter_),
       options(options_),
-      s0(options.physics.adhesion.work / options.physics.adhesion.range),
-      z0(options.physics.adhesion.range),
+      s0(options.physics.of<Adhesion>().work / options.physics.of<Adhesion>().range),
+      z0(options.physics.of<Adhesion>().range),
       pixel(heights.dx * heights.dy) {
-    require_resolved(indenter.E_star, options.physics.adhesion, std::max(heights.dx, heights.dy));
+    require_resolved(indenter.E_star, options.physics.of<Adhesion>(),
+                     std::max(heights.dx, heights.dy));
     const Substrate body = substrate_of(indenter);
     if (indenter.period.finite()) {
         raised = heights.copy();
@@ -430,7 +432,7 @@ Level AdhesivePixels::step(double Z, const Past* start) {
 
 // Energy that a step may seem to lose without a jump, or that the place of a jump in it may change.
 double AdhesivePixels::negligible() const {
-    return kLossShare * options.physics.adhesion.work * pixel *
+    return kLossShare * options.physics.of<Adhesion>().work * pixel *
            std::max(sum_of(now.share), sum_of(accepted.share));
 }
 

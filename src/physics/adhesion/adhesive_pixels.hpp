@@ -6,6 +6,7 @@
 #include "elements/elements.hpp"
 #include "elements/periodic_elements.hpp"
 #include "physics/adhesion/adhesive_elements.hpp"
+#include "physics/adhesion/sticking.hpp"
 
 namespace rsc {
 
@@ -48,7 +49,7 @@ struct AdhesivePixels : CutMap {
                    const SolverOptions& options_);
 
     double resolution() const {
-        return cohesive_length(indenter.E_star, options.physics.adhesion) /
+        return cohesive_length(indenter.E_star, options.physics.of<Adhesion>()) /
                std::max(heights.dx, heights.dy);
     }
     double pressure(std::size_t i) const { return q[i] - s0 * share[i]; }

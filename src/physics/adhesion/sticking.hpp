@@ -34,6 +34,12 @@
 
 namespace rsc {
 
+// Adhesion of the bodies.
+struct Adhesion {
+    double work = 0;   // work of adhesion w [force/length]; 0: no adhesion
+    double range = 0;  // range z0 of the attraction [length]; 0: JKR
+};
+
 class Sticking {
 public:
     // w: work of adhesion [force/length], positive; range: z0 [length], 0: JKR. The law must

@@ -69,7 +69,10 @@ GapMap gap_of(LevelSource& source) {
 const char* compute_gap(LevelSource& source) {
     if (!source.map || !source.contact.indenter().period.finite())
         return "only two flats solved by elements have a gap";
-    if (std::isnan(source.level.gap_mean)) add_gap(source.level, gap_of(source));
+    if (!std::isnan(source.level.gap_mean)) return nullptr;
+    add_gap(source.level, gap_of(source));
+    if (source.gap_bins > 0)
+        source.level.gaps = count_gaps(gap_of(source), source.gap_bins, source.gap_bin);
     return nullptr;
 }
 
@@ -116,7 +119,8 @@ const char* compute_permeability(LevelSource& source) {
     if (!has_permeability()) return "this rsc was built without CHOLMOD";
     LevelValues& level = source.level;
     if (!std::isnan(level.permeability_xx)) return nullptr;
-    const Permeability k = permeability(gap_of(source), source.flux).K;
+    const Permeability k =
+        permeability(gap_of(source), source.for_fields ? &source.flux : nullptr).K;
     level.permeability_xx = k.xx;
     level.permeability_yy = k.yy;
     level.permeability_xy = k.xy;

@@ -260,7 +260,7 @@ std::unique_ptr<YieldingLaw> make_yielding(std::unique_ptr<Law> elastic,
 
 AsperityPhysics make_yielding_asperities(const ContactBodies& bodies,
                                          std::unique_ptr<Law> elastic) {
-    const Hardness& hardness = bodies.options.physics.hardness;
+    const Hardness& hardness = bodies.options.physics.of<Hardness>();
     auto law = make_yielding(std::move(elastic), bodies.asperities, hardness);
     auto history = std::make_unique<YieldingAsperities>(*law, bodies.asperities.size());
     return {std::move(law), std::move(history)};
@@ -331,13 +331,13 @@ std::vector<LevelQuantity> hardness_quantities() {
 }
 
 void require_sound(const BodyPhysics& bodies) {
-    const Hardness& hardness = bodies.hardness;
+    const Hardness& hardness = bodies.of<Hardness>();
     if (!(hardness.H0 > 0)) bad_input("solids%hardness must be positive (Infinity: elastic)");
     if (!(hardness.length >= 0) || std::isinf(hardness.length))
         bad_input("solids%size_effect must not be negative");
 }
 
-bool has_size_effect(const Combination& c) { return c.bodies.hardness.length > 0; }
+bool has_size_effect(const Combination& c) { return c.bodies.of<Hardness>().length > 0; }
 
 }  // namespace
 
@@ -347,9 +347,9 @@ const Physics kHardness = {
     .keys = hardness_keys,
     .take =
         [](const Case& c, BodyPhysics& bodies) {
-            bodies.hardness = {c.solids.hardness, c.solids.size_effect};
+            bodies.of<Hardness>() = {c.solids.hardness, c.solids.size_effect};
         },
-    .asked = [](const BodyPhysics& bodies) { return bodies.hardness.H0 != kInfinity; },
+    .asked = [](const BodyPhysics& bodies) { return bodies.of<Hardness>().H0 != kInfinity; },
     .excludes = {{"friction", "friction needs elastic asperities"},
                  {"solver%model", "it needs the radius of asperities",
                   [](const Combination& c) { return has_size_effect(c) && c.elements; },
@@ -371,9 +371,9 @@ const Physics kHardness = {
     .lowers = true,
     .mends_extreme_pressures = true,
     .largest_pressure = [](const BodyPhysics& bodies,
-                           double radius) { return bodies.hardness.at(radius); },
+                           double radius) { return bodies.of<Hardness>().at(radius); },
     .calibrated = [](const BodyPhysics& bodies,
-                     bool layers) { return bodies.hardness.length == 0 && !layers; },
+                     bool layers) { return bodies.of<Hardness>().length == 0 && !layers; },
     .require_sound = require_sound,
     .compares_itself = [](const Case& c) { return !(c.solids.size_effect > 0); },
     .bytes_per_point = 8,  // depths of lowered points

@@ -31,6 +31,13 @@ namespace rsc {
 
 extern const Physics kHardness;
 
+// Pressures are limited to H = H0 sqrt(1 + length/r), where r is the radius of an asperity.
+struct Hardness {
+    double H0 = kInfinity;  // [force/length^2]; Infinity: elastic
+    double length = 0;      // length of the size effect [length]
+    double at(double radius) const { return H0 * std::sqrt(1 + length / radius); }
+};
+
 // A law with limited pressures. Its memory is the largest accepted penetration of each asperity.
 class YieldingLaw : public Law, public LawMemory {
 public:

@@ -32,7 +32,6 @@ public:
         return height(std::clamp(0.0, box.x0, box.x1), std::clamp(0.0, box.y0, box.y1));
     }
     double most_fallen(double way, double) const override { return slope_ * way; }
-    bool round() const override { return true; }
     double edge(double) const override { return 0; }
     // Sneddon, Int. J. Eng. Sci. 3 (1965): u = (pi/2) a slope, N = (2/pi) E* u^2/slope.
     std::optional<SmoothContact> smooth(double E_star) const override {

@@ -57,7 +57,6 @@ public:
         const double m = std::sqrt(std::max(k1_, k2_)) * way;
         return std::sqrt(2 * std::max(0.0, drop)) * m + 0.5 * m * m;
     }
-    bool round() const override { return k1_ == k2_; }
     // A cylinder repeats along its axis.
     bool repeats(double x, double y) const override {
         constexpr double rounding = 1e-12;
@@ -67,7 +66,7 @@ public:
                (std::isinf(y) || std::abs(k.yy) <= small);
     }
     double hertz_radius() const override {
-        return round() ? keys().radii[0] : std::numeric_limits<double>::quiet_NaN();
+        return k1_ == k2_ ? keys().radii[0] : std::numeric_limits<double>::quiet_NaN();
     }
     // Elliptic Hertz contact (Johnson 1985, section 4.2); empty for a cylinder, whose approach
     // depends on its length.

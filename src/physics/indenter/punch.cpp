@@ -41,7 +41,6 @@ public:
         return height(std::clamp(0.0, box.x0, box.x1), std::clamp(0.0, box.y0, box.y1));
     }
     double reach() const override { return a_ + r_; }
-    bool round() const override { return true; }
     double edge(double blunt) const override { return r_ < blunt ? a_ : -1; }
     // Sharp rim only: N = 2 E* a u over the whole flat end.
     std::optional<SmoothContact> smooth(double E_star) const override {

@@ -53,7 +53,6 @@ public:
         return before < rim_ ? of_square(before * before) - of_square(rho * rho) : kInfinity;
     }
     double reach() const override { return rim_; }
-    bool round() const override { return true; }
     double hertz_radius() const override { return R_star_; }
     // Hertz (Johnson 1985, section 4.2): N = (4/3) E* sqrt(R) u^(3/2), A = pi R u.
     std::optional<SmoothContact> smooth(double E_star) const override {
@@ -97,7 +96,6 @@ public:
     double lowest(const Box&) const override { return 0; }
     double most_fallen(double, double) const override { return 0; }
     bool flat() const override { return true; }
-    bool round() const override { return true; }
     double hertz_radius() const override { return kInfinity; }
     bool repeats(double, double) const override { return true; }
 };

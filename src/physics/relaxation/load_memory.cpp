@@ -3,8 +3,9 @@
 #include "base/error.hpp"
 
 namespace rsc {
-LoadMemory::LoadMemory(const Creep& creep)
-    : creep_(creep),
+LoadMemory::LoadMemory(const Relaxation& body)
+    : body_(body),
+      creep_(body),
       passage_(creep_, 0),
       y_(creep_.retardations().size()),
       yf_(y_.size(), 0.0),
@@ -65,7 +66,7 @@ double LoadMemory::stored() const {
     return 0.5 * sum;
 }
 
-void LoadMemory::forget() { *this = LoadMemory(Creep(creep_)); }
+void LoadMemory::forget() { *this = LoadMemory(Relaxation(body_)); }
 
 void LoadMemory::write(std::vector<double>& numbers) const {
     append(numbers, {double(places_.size()), ff_, lost_});

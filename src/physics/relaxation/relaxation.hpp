@@ -7,6 +7,24 @@
 
 namespace rsc {
 
+inline constexpr int kMostRelaxations = 16;
+
+// Relaxation of body 1: shares g_k > 0, whose sum is at most 1, and times tau_k > 0 [time]. Empty:
+// the body is elastic.
+struct Relaxation {
+    std::vector<double> share = {}, time = {};
+    // share of this body in the compliance 1/E* of the pair; 1 if the other one is rigid
+    double soft = 1;
+    bool none() const { return share.empty(); }
+    // The shortest relaxation time with a share; Infinity: there is none.
+    double shortest() const {
+        double least = kInfinity;
+        for (const auto k : indices(share))
+            if (share[k] > 0) least = std::min(least, time[k]);
+        return least;
+    }
+};
+
 // Contact of a relaxing body with an elastic or rigid one. The deflection under a variable load f
 // is that of the instantaneous body under
 //     f + sum_k y_k,   y_k' = v_k f - lambda_k y_k

@@ -1,6 +1,7 @@
 #include "physics/relaxation/relaxing_asperities.hpp"
 
 #include "base/error.hpp"
+#include "physics/relaxation/load_memory.hpp"
 
 namespace rsc {
 namespace {
@@ -27,12 +28,13 @@ std::vector<double> deflections(Products& products, const std::vector<double>& x
 }  // namespace
 
 RelaxingAsperities::RelaxingAsperities(const Asperities& asperities, const Indenter& indenter,
-                                       RelaxingLaw& law, const Creep& creep, double tolerance)
+                                       RelaxingLaw& law, const Relaxation& body, double tolerance)
     : asperities_(asperities),
       indenter_(indenter),
       law_(law),
-      creep_(creep),
+      creep_(body),
       tolerance_(tolerance),
+      shortest_(body.shortest()),
       lowered_(asperities.size(), kUnknown) {}
 
 void RelaxingAsperities::step(double dt) {
@@ -171,10 +173,10 @@ void RelaxingAsperities::read(std::span<const double> numbers) {
 
 AsperityPhysics make_relaxing_asperities(const ContactBodies& bodies,
                                          std::unique_ptr<Law> elastic) {
-    const Creep creep(bodies.options.physics.relaxation);
-    auto law = make_relaxing(std::move(elastic), bodies.asperities.size(), creep);
+    const Relaxation& body = bodies.options.physics.of<Relaxation>();
+    auto law = make_relaxing(std::move(elastic), bodies.asperities.size(), Creep(body));
     auto history = std::make_unique<RelaxingAsperities>(bodies.of_surface, bodies.indenter, *law,
-                                                        creep, bodies.options.tolerance);
+                                                        body, bodies.options.tolerance);
     return {std::move(law), std::move(history)};
 }
 
@@ -206,8 +208,8 @@ void take_relaxation(const Case& settings, BodyPhysics& bodies) {
     const Case::Solids& s = settings.solids;
     if (!relaxes(s)) return;
     const auto compliance = [&](int i) { return (1 - s.nu[i] * s.nu[i]) / s.E[i]; };
-    bodies.relaxation = {s.relaxation_share, s.relaxation_time,
-                         compliance(0) / (compliance(0) + compliance(1))};
+    bodies.of<Relaxation>() = {s.relaxation_share, s.relaxation_time,
+                               compliance(0) / (compliance(0) + compliance(1))};
 }
 
 void check_relaxation(const Case& settings, const Complain& complain) {
@@ -244,6 +246,8 @@ std::vector<LevelQuantity> relaxation_quantities() {
          .comment =
              "the load changes linearly between levels; the first level is applied instantaneously",
          .always = false,
+         .shown =
+             [](const Case& c) { return c.indentation.duration || !c.indentation.times.empty(); },
          .heading = "time",
          .width = 11,
          .digits = 6},
@@ -266,7 +270,7 @@ const Physics kRelaxation = {
     .key = "solids%relaxation_share",
     .keys = relaxation_keys,
     .take = take_relaxation,
-    .asked = [](const BodyPhysics& bodies) { return !bodies.relaxation.none(); },
+    .asked = [](const BodyPhysics& bodies) { return !bodies.of<Relaxation>().none(); },
     .excludes =
         {{"hardness"},
          {"friction"},
@@ -280,10 +284,15 @@ const Physics kRelaxation = {
     .path = "the response of a relaxing body depends on the history of loads",
     .quantities = relaxation_quantities(),
     .mends_extreme_pressures = true,
+    .may_close_gap = "bodies that relax may have closed the gap between flats",
+    .closed_forms = false,
     .require_feasible = require_times,
     .compares_itself = [](const Case&) { return false; },
     .remark = print_relaxation,
     .law = make_relaxing_asperities,
+    .loads = [](const BodyPhysics& bodies) -> std::unique_ptr<LastingLoads> {
+        return std::make_unique<LoadMemory>(bodies.of<Relaxation>());
+    },
 };
 
 }  // namespace rsc

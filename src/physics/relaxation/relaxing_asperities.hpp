@@ -14,9 +14,10 @@ public:
     // The asperities, the indenter, whose tip may move, and the law must outlive this object.
     // Deflections are accurate to `tolerance`, that of the levels.
     RelaxingAsperities(const Asperities& asperities, const Indenter& indenter, RelaxingLaw& law,
-                       const Creep& creep, double tolerance);
+                       const Relaxation& body, double tolerance);
 
     void step(double dt) override;
+    double shortest_time() const override { return shortest_; }
     // Ratio of the forces of the law to the true ones.
     double scale() const override { return 1 / law_.modulus(); }
     // Sum of all rests: for periodic flats the surface rises by the kernel's shift times this sum.
@@ -49,7 +50,7 @@ private:
     const Indenter& indenter_;
     RelaxingLaw& law_;
     Creep creep_;
-    double tolerance_;
+    double tolerance_, shortest_;
     // Last accepted level: forces f and interaction loads f + sum y_k, in the order of touched();
     // energies.
     std::vector<double> force_, load_;

@@ -100,6 +100,7 @@ std::vector<LevelQuantity> wear_quantities() {
          .comment =
              "the load changes linearly between levels; the first level is reached without sliding",
          .always = false,
+         .shown = [](const Case& c) { return c.indentation.slides(); },
          .heading = "distance",
          .width = 11,
          .digits = 6},
@@ -110,6 +111,7 @@ std::vector<LevelQuantity> wear_quantities() {
          .comment = "solids%wear_coefficient times the integral of the force over the sliding "
                     "distance, of both bodies",
          .always = false,
+         .shown = [](const Case& c) { return c.solids.wear_coefficient > 0; },
          .statistics = true,
          .plain = "worn volume",
          .heading = "worn",
@@ -160,8 +162,9 @@ const Physics kWear = {
     .name = "wear",
     .key = "solids%wear_coefficient",
     .keys = wear_keys,
-    .take = [](const Case& c, BodyPhysics& bodies) { bodies.wear = {c.solids.wear_coefficient}; },
-    .asked = [](const BodyPhysics& bodies) { return bodies.wear.coefficient != 0; },
+    .take = [](const Case& c,
+               BodyPhysics& bodies) { bodies.of<Wear>() = {c.solids.wear_coefficient}; },
+    .asked = [](const BodyPhysics& bodies) { return bodies.of<Wear>().coefficient != 0; },
     .excludes = {{"adhesion"},
                  {"relaxation"},
                  {"solids%layer_thickness", "wear would thin the layers",
@@ -183,7 +186,7 @@ const Physics kWear = {
 };
 
 std::unique_ptr<Lowering> make_wear(const BodyPhysics& bodies) {
-    const double k = bodies.wear.coefficient;
+    const double k = bodies.of<Wear>().coefficient;
     if (!(k > 0 && std::isfinite(k)))
         bad_input("the coefficient of wear must be positive and finite");
     return std::make_unique<WornPoints>(k);

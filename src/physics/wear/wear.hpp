@@ -10,6 +10,11 @@ namespace rsc {
 
 extern const Physics kWear;
 
+// Archard's law: a pressure p that slides a distance ds lowers the surface by coefficient p ds.
+struct Wear {
+    double coefficient = 0;  // [length^2/force]; 0: none
+};
+
 // Throws Error(bad_input) for a coefficient out of range.
 std::unique_ptr<Lowering> make_wear(const BodyPhysics& bodies);
 

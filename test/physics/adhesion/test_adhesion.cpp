@@ -1,7 +1,9 @@
 // Asperities that stick (physics/adhesion/adhesive_contact.hpp), against closed forms, scalar
 // equations, and a slow minimiser of the energy.
 #include "base/error.hpp"
+#include "physics/adhesion/sticking.hpp"
 #include "support/adhesive_paths.hpp"
+#include "support/bodies.hpp"
 
 namespace test_adhesion {
 
@@ -36,7 +38,7 @@ double root(const std::function<double(double)>& rising, double low) {
 }
 
 SolverOptions sticky(double w, LawKind law = LawKind::hertz) {
-    return {.law = law, .tolerance = 1e-12, .physics = {.adhesion = {.work = w}}};
+    return {.law = law, .tolerance = 1e-12, .physics = bodies_with(Adhesion{.work = w})};
 }
 
 // The whole loop of one asperity: it attaches where it touches and lets go at u_c, neither sooner
@@ -399,7 +401,7 @@ TEST(test_lost) {
     for (double range : {0.0, 0.003}) {
         const RandomAsperities system = random_asperities(8, 9, 0.03);
         SolverOptions options = sticky(system.w);
-        options.physics.adhesion.range = range;
+        options.physics.of<Adhesion>().range = range;
         const auto contact = under_flat(system.asperities, options);
         const Level lost = contact->at_separation(0);
         CHECK(!lost.converged && std::isnan(lost.force) && std::isnan(contact->energy()));

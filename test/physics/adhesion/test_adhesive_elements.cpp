@@ -5,6 +5,7 @@
 #include "contact/make.hpp"
 #include "physics/indenter/shapes.hpp"
 #include "support/adhesive_paths.hpp"
+#include "support/bodies.hpp"
 #include "support/height_maps.hpp"
 #include "support/judged.hpp"
 
@@ -61,7 +62,9 @@ HeightMap paraboloid(double side, int n) {
     });
 }
 
-SolverOptions attracting(double w, double range) { return {.physics = {.adhesion = {w, range}}}; }
+SolverOptions attracting(double w, double range) {
+    return {.physics = bodies_with(Adhesion{w, range})};
+}
 
 // The relative error of the pull-off force; forces at given penetrations are checked on the way up.
 double pull_off_error(double lambda, double resolution) {

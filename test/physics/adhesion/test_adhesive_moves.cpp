@@ -4,6 +4,7 @@
 #include "contact/answers.hpp"
 #include "contact/make.hpp"
 #include "support/adhesive_paths.hpp"
+#include "support/bodies.hpp"
 
 namespace test_adhesive_moves {
 
@@ -56,7 +57,8 @@ double work_of_move(Path& contact, double Z, double end, int& jumps) {
 TEST(test_cycle) {
     for (const double range : {0.0, 0.002}) {
         const RandomAsperities system = random_asperities(6, 31, 0.2);
-        SolverOptions options{.tolerance = 1e-12, .physics = {.adhesion = {system.w, range}}};
+        SolverOptions options{.tolerance = 1e-12,
+                              .physics = bodies_with(Adhesion{system.w, range})};
         const auto contact =
             make_asperity_contact(system.asperities, {5.0, 5.0, 0.1, 0.5}, options);
         const double Z = 0.006;
@@ -79,7 +81,7 @@ TEST(test_cycle) {
 TEST(test_lets_go) {
     const Asperities one = curved(asperities_at({{0.5, 0.5, 0, 0.05}}), 1);
     SolverOptions options{.law = LawKind::elliptic,
-                          .physics = {.adhesion = {1e-3, 0}},
+                          .physics = bodies_with(Adhesion{1e-3, 0}),
                           .surface = {.gentlest_slope = 0.1}};
     const auto held = make_asperity_contact(one, {5.0, 0.1, 0.5, 0.5}, options);
     const double Z = held->first_touch() + 1e-4;

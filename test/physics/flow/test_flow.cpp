@@ -242,7 +242,7 @@ TEST(the_gap_of_a_level) {
     }
     CHECK(r.levels[1].permeability_xx < r.levels[0].permeability_xx);
     CHECK(r.levels[2].gap_mean < r.levels[1].gap_mean);
-    CHECK(r.fields.flow.size() == 2 * points);
+    CHECK(r.fields.physics[0].values.size() == 2 * points);
 
     Made library(kFlats);
     OK(rsc_contact_press(library.contact, r.levels[1].force, nullptr));

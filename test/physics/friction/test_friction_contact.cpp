@@ -3,6 +3,7 @@
 #include "check.hpp"
 #include "contact/answers.hpp"
 #include "physics/adhesion/adhesive_contact.hpp"
+#include "physics/adhesion/sticking.hpp"
 #include "physics/friction/contact_curve.hpp"
 #include "support/asperities.hpp"
 #include "support/paths.hpp"
@@ -125,7 +126,7 @@ TEST(conductance) {
     for (const double range : {0.0, 2e-3}) {
         SolverOptions options = tight();
         options.tolerance = 1e-9;
-        options.physics.adhesion = {2.0, range};
+        options.physics.of<Adhesion>() = {2.0, range};
         const auto sticking = make_asperity_contact(a, {kE, 2.5, 0.5, 0.5}, options);
         for (double Z0 : {0.012, 0.006, 0.003, 0.008, 0.011}) {
             const Level level = sticking->at_separation(Z0);

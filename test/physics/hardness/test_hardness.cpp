@@ -3,6 +3,7 @@
 #include "check.hpp"
 #include "physics/hardness/hardness.hpp"
 #include "support/asperities.hpp"
+#include "support/bodies.hpp"
 #include "support/paths.hpp"
 #include "support/simpson.hpp"
 #include "surface/detection.hpp"
@@ -50,7 +51,7 @@ Asperities bent(double flattening) {
 }
 
 SolverOptions options_with(double H0, double length = 0) {
-    return {.tolerance = 1e-13, .physics = {.hardness = {H0, length}}};
+    return {.tolerance = 1e-13, .physics = bodies_with(Hardness{H0, length})};
 }
 
 // Of every law: force, area and work continuous where yielding begins, slope and work the

@@ -4,7 +4,9 @@
 #include "base/error.hpp"
 #include "check.hpp"
 #include "interaction/pixel_kernels.hpp"
+#include "physics/hardness/hardness.hpp"
 #include "support/asperities.hpp"
+#include "support/bodies.hpp"
 #include "support/height_maps.hpp"
 #include "support/paths.hpp"
 #include "support/simpson.hpp"
@@ -19,7 +21,8 @@ constexpr double kSigma = 0.01;
 const Indenter kTip{kE, 2.5, 0.47, 0.52};
 
 SolverOptions options(double H0, double tolerance = 1e-10) {
-    return {.tolerance = tolerance, .max_iterations = 400, .physics = {.hardness = {.H0 = H0}}};
+    return {
+        .tolerance = tolerance, .max_iterations = 400, .physics = bodies_with(Hardness{.H0 = H0})};
 }
 
 HeightMap rough(int n, double L_lambda_s, std::int64_t seed) {
@@ -50,9 +53,9 @@ TEST(test_limits) {
         CHECK_RELATIVE(s.area, s.area_pixels, 1e-12);
     }
     SolverOptions scaled = options(1000);
-    scaled.physics.hardness.length = 1e-3;
+    scaled.physics.of<Hardness>().length = 1e-3;
     CHECK_THROWS(make_element_contact(map, kTip, scaled), Error);
-    scaled.physics.hardness.H0 = kInfinity;
+    scaled.physics.of<Hardness>().H0 = kInfinity;
     CHECK(make_element_contact(map, kTip, scaled)->at_separation(kSigma).force > 0);
 }
 

@@ -135,8 +135,8 @@ TEST(all_indenter) {
     k.R_rough = kInfinity;
     CHECK_RELATIVE(shape("paraboloid", k)->height(0.03, 0.04),
                    shape("sphere", k)->height(0.03, 0.04), std::pow(0.05 / k.R, 2));
-    CHECK(shape("paraboloid", k)->round() && shape("paraboloid", k)->hertz_radius() == k.R &&
-          !shape("paraboloid", keys())->round());
+    CHECK(shape("paraboloid", k)->hertz_radius() == k.R &&
+          std::isnan(shape("paraboloid", keys())->hertz_radius()));
     for (const double turn : {0.1, 1.0, 2.5}) {
         ShapeKeys turned = keys();
         turned.angle += turn;

@@ -7,6 +7,7 @@
 #include "contact/make.hpp"
 #include "physics/relaxation/relaxation.hpp"
 #include "support/asperities.hpp"
+#include "support/bodies.hpp"
 #include "support/height_maps.hpp"
 
 namespace test_relaxing_contact {
@@ -47,7 +48,7 @@ std::unique_ptr<Path> make(const Kind& model, const Relaxation& body) {
                                                                {0.4, 0.8, 0.003, 0.3},
                                                                {0.6, 0.5, -0.01, 0.25}}),
                                                 1.3, 0.5, 20);
-    SolverOptions options{.law = model.law, .tolerance = 1e-11, .physics = {.relaxation = body}};
+    SolverOptions options{.law = model.law, .tolerance = 1e-11, .physics = bodies_with(body)};
     Indenter indenter{kE, model.periodic ? kInfinity : 4.0, 0.5, 0.5,
                       model.periodic ? Period{1, 1} : Period{}};
     if (model.elements) return make_element_contact(map, indenter, options);

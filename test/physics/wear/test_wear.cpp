@@ -2,7 +2,11 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "contact/make.hpp"
+#include "physics/adhesion/sticking.hpp"
+#include "physics/hardness/hardness.hpp"
 #include "physics/indenter/shapes.hpp"
+#include "physics/relaxation/relaxation.hpp"
+#include "physics/wear/wear.hpp"
 #include "support/height_maps.hpp"
 #include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
@@ -15,7 +19,7 @@ using namespace rsc;
 SolverOptions wearing(double k, double tolerance = 1e-7) {
     SolverOptions options;
     options.tolerance = tolerance;
-    options.physics.wear.coefficient = k;
+    options.physics.of<Wear>().coefficient = k;
     return options;
 }
 
@@ -143,10 +147,10 @@ TEST(hardness) {
     for (const Body& body : bodies()) {
         const double k = 2e-3;
         SolverOptions options = wearing(k);
-        options.physics.hardness.H0 = 1e6;
+        options.physics.of<Hardness>().H0 = 1e6;
         const auto elastic = path_of(body, k),
                    same_as = make_element_contact(body.map, body.indenter, options);
-        options.physics.hardness.H0 = 2 * body.force / (body.map.Lx() * body.map.Ly());
+        options.physics.of<Hardness>().H0 = 2 * body.force / (body.map.Lx() * body.map.Ly());
         const auto soft = make_element_contact(body.map, body.indenter, options);
         for (const double s : {0.0, 0.02, 0.1}) {
             const Level a = slid(*elastic, s, body.force), b = slid(*same_as, s, body.force),
@@ -154,7 +158,7 @@ TEST(hardness) {
             CHECK_RELATIVE(b.separation, a.separation, 1e-5);
             CHECK_CLOSE(b.worn_volume, a.worn_volume, 1e-6 * (k * body.force * s));
             CHECK_CLOSE(c.worn_volume, k * body.force * s, 1e-5 * (k * body.force * s));
-            CHECK(c.converged && c.pressure_max <= options.physics.hardness.H0 * (1 + 1e-9));
+            CHECK(c.converged && c.pressure_max <= options.physics.of<Hardness>().H0 * (1 + 1e-9));
             CHECK(c.plastic_work > 0 &&
                   c.area_pixels >= (0.5 - 1e-9) * body.map.Lx() * body.map.Ly());
         }
@@ -277,8 +281,8 @@ TEST(refused) {
     const HeightMap map = flat_map(16, 16, 0.01, 0.01);
     const Indenter ball{1e3, 1.0, 0.075, 0.075};
     SolverOptions sticky = wearing(1e-4), soft = sticky;
-    sticky.physics.adhesion = {1e-3, 1e-4};
-    soft.physics.relaxation = {{0.5}, {1.0}};
+    sticky.physics.of<Adhesion>() = {1e-3, 1e-4};
+    soft.physics.of<Relaxation>() = {{0.5}, {1.0}};
     for (const SolverOptions& options : {sticky, soft, wearing(-1), wearing(kInfinity)})
         CHECK_THROWS(make_element_contact(map, ball, options), Error);
     Asperities one;

@@ -1,0 +1,178 @@
+#include "physics/flow/flow_row.hpp"
+
+#include "base/error.hpp"
+#include "base/format.hpp"
+#include "base/parallel.hpp"
+#include "case/units.hpp"
+#include "physics/flow/flow.hpp"
+
+namespace rsc {
+namespace {
+
+bool flow_asked(const Case& settings) { return settings.output.flow; }
+
+// Levels of two flats by elements have a gap.
+bool has_gap(const Case& settings) {
+    return settings.indentation.boundary == Boundary::periodic && by_elements(settings);
+}
+
+std::vector<Key> flow_keys() {
+    using namespace keys;
+    return {
+        number(RSC_KEY(output, flow), "", kAny,
+               "permeability of the gap between two flats at each level, by elements with boundary "
+               "= 'periodic'"),
+    };
+}
+
+void check_flow(const Case& settings, const Complain& complain) {
+    if (!settings.output.flow) return;
+    if (settings.indentation.boundary != Boundary::periodic)
+        complain({"output%flow", "indentation%boundary"},
+                 "fluid flows through the gap of two flats, whose surface is periodic; give "
+                 "boundary = 'periodic' and R = Infinity, Infinity");
+    if (!by_elements(settings))
+        complain({"output%flow", "solver%model"},
+                 "asperities have no gap between them; use model = 'elements'");
+    if (!has_permeability())
+        complain({"output%flow"},
+                 "this rsc was built without CHOLMOD (Debian: libsuitesparse-dev), which solves "
+                 "for the flow");
+}
+
+std::vector<LevelQuantity> flow_quantities() {
+    using V = LevelValues;
+    return {
+        {.name = "gap_mean",
+         .member = &V::gap_mean,
+         .length_power = 1,
+         .meaning = "mean gap between two flats",
+         .comment = "boundary elements, over the whole cell; 0 where the bodies touch",
+         .compute = compute_gap,
+         .in_run = has_gap,
+         .error_factor = 0.0014,
+         .always = false,
+         .shown = flow_asked,
+         .statistics = true,
+         .plain = "mean gap",
+         .heading = "gap",
+         .width = 11,
+         .digits = 5},
+        {.name = "gap_mean_open",
+         .member = &V::gap_mean_open,
+         .length_power = 1,
+         .meaning = "mean gap where two flats do not touch",
+         .compute = compute_gap,
+         .in_run = has_gap,
+         .always = false},
+        {.name = "percolates",
+         .member = &V::percolates_x,
+         .y = &V::percolates_y,
+         .unit = "1",
+         .meaning = "1 if the gap is open across any number of periods, otherwise 0",
+         .comment = "along x, along y: points of the gap connected by their sides wind around the "
+                    "periodic cell",
+         .compute = compute_gap,
+         .in_run = has_gap,
+         .always = false,
+         .statistics = true,
+         .plain = "percolation (its share)"},
+        {.name = "permeability",
+         .member = &V::permeability_xx,
+         .y = &V::permeability_yy,
+         .z = &V::permeability_xy,
+         .length_power = 3,
+         .meaning = "permeability of the gap, K",
+         .comment =
+             "flux per width q = -(K/eta) grad P of a fluid of viscosity eta; a parallel gap h "
+             "has h^3/12. A seal of length l along x and width w leaks w K_xx/(eta l) times the "
+             "pressure drop",
+         .compute = compute_permeability,
+         .in_run = flow_asked,
+         .own_error = permeability_error,
+         .always = false,
+         .statistics = true,
+         .logarithm = true,
+         .plain = "permeability"},
+        {.name = "hydraulic_gap",
+         .member = &V::hydraulic_gap_x,
+         .y = &V::hydraulic_gap_y,
+         .length_power = 1,
+         .meaning = "parallel gap of the same permeability, (12 K)^(1/3), along x and along y",
+         .compute = compute_permeability,
+         .in_run = flow_asked,
+         .own_error = hydraulic_gap_error,
+         .always = false,
+         .shown = flow_asked,
+         .plain = "hydraulic gap",
+         .heading = "hydraulic",
+         .width = 14,
+         .digits = 5},
+    };
+}
+
+// The memory of the machine must bear the flow through a map of this size.
+void require_memory(const PreparedFacts& facts) {
+    const double needed = permeability_bytes(facts.points), memory = machine_memory();
+    if (needed <= memory) return;
+    const double side = std::floor(std::sqrt(permeability_points(memory)));
+    bad_input(
+        format("output%%flow: the flow through a gap of %.0f points needs up to %.3g GB, and the "
+               "machine has %.3g GB of memory, enough for %.0f x %.0f points; give a smaller "
+               "elements%%points_per_wave or surface%%L_lambda_s",
+               facts.points, 1e-9 * needed, 1e-9 * memory, side, side));
+}
+
+class FluxRecorder final : public LevelRecorder {
+public:
+    FieldValues fields_at(LevelSource& source) override { return {std::move(source.flux)}; }
+};
+
+// Says up to which levels the gap is open across the cell, and how a leak follows from K.
+void print_gap(std::ostream& out, const RunFacts& run) {
+    const auto open = [](const LevelValues& l) { return l.percolates_x > 0; };
+    const auto count = std::ranges::count_if(run.levels, open);
+    double most = 0, least = kInfinity;
+    for (const LevelValues& l : run.levels) {
+        if (open(l)) most = std::max(most, l.area_fraction);
+        if (l.percolates_x == 0) least = std::min(least, l.area_fraction);
+    }
+    out << format("  gap: open across the cell along x at %zu of %zu levels", at(count),
+                  run.levels.size());
+    if (count > 0) out << format(", up to A/A0 = %.3g", most);
+    if (least < kInfinity) out << format("; closed at A/A0 = %.3g and above", least);
+    const auto& [l, f, t] = std::tie(run.settings.run.length_unit, run.settings.run.force_unit,
+                                     run.settings.run.time_unit);
+    out << format(
+        "\n  leak rate = K w dP/(eta l) [%s/%s] for a pressure drop dP [%s] over the length l of "
+        "the seal along x, its width w and the viscosity eta [%s %s]; hydraulic gap h: K = "
+        "h^3/12\n",
+        unit_of(l, 3, "", 0).c_str(), t.c_str(), unit_of(l, -2, f, 1).c_str(),
+        unit_of(l, -2, f, 1).c_str(), t.c_str());
+}
+
+}  // namespace
+
+const Physics kFlow = {
+    .name = "flow",
+    .key = "output%flow",
+    .keys = flow_keys,
+    .take = [](const Case& c, BodyPhysics& bodies) { bodies.of<FlowAsked>() = {c.output.flow}; },
+    .asked = [](const BodyPhysics& bodies) { return bodies.of<FlowAsked>().asked; },
+    .check = check_flow,
+    .needs_elements = [](const Case&) { return "output%flow needs them"; },
+    .quantities = flow_quantities(),
+    .fields = {{"flow",
+                "magnitude of the flux per width times the viscosity, for a mean pressure gradient "
+                "of 1 along x",
+                3, 0}},
+    .recorder = [](const RecordedBodies&) -> std::unique_ptr<LevelRecorder> {
+        return std::make_unique<FluxRecorder>();
+    },
+    .require_feasible = require_memory,
+    .calibrated = [](const BodyPhysics&, bool) { return true; },  // levels do not depend on it
+    .bytes = permeability_bytes,
+    .remark = print_gap,
+};
+
+}  // namespace rsc
