@@ -6,7 +6,7 @@
 
 namespace rsc {
 
-// A contact of asperities, with adhesion if options.physics.of<Adhesion>().work > 0. The asperities must
+// A contact of asperities, with what options.physics adds to it. The asperities must
 // outlive it. Throws Error(bad_input) for moduli, shapes or options out of range.
 std::unique_ptr<Path> make_asperity_contact(const Asperities& asperities, const Indenter& indenter,
                                             const SolverOptions& options);

@@ -105,8 +105,8 @@ struct QuantityComponent {
 std::optional<QuantityComponent> find_quantity(std::string_view name);
 std::string names_of_quantities();  // separated by commas
 
-// Computes the quantities of a level that no case needs to ask for, and in a run those that its case
-// asks for.
+// Computes the quantities of a level that no case needs to ask for, and in a run also those that
+// its case asks for.
 void compute_quantities(LevelSource& source, const Case* run = nullptr);
 
 }  // namespace rsc

@@ -26,10 +26,10 @@ public:
     virtual double accuracy() const = 0;
 };
 
-// How earlier loads on the points of a map act on in a body that relaxes (physics/relaxation): the
-// deflection under loads f at the end of a step is K [compliance f + r], r the rest of earlier loads
-// and K f the deflections of the instantaneous body. A step is thus an elastic problem with a known
-// gap.
+// How earlier loads on the points of a map act on in a body that relaxes (physics/relaxation). The
+// deflection under loads f at the end of a step is K [compliance f + r], where r is the rest of
+// earlier loads and K f are the deflections of the instantaneous body. A step is thus an elastic
+// problem with a known gap.
 class LastingLoads {
 public:
     virtual ~LastingLoads() = default;

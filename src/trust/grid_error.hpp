@@ -29,11 +29,13 @@ struct PlaceOfTip {
 double error_of_resolution(const LevelQuantity& quantity, std::size_t component,
                            const LevelValues& level, bool read);
 
-// States the errors of the curves of a level of boundary elements with pixels of this side [length].
+// States the errors of the curves of a level of boundary elements, `step` being the side of a pixel
+// [length].
 void state_curve_errors(std::span<double> curves, std::span<const AskedCurves> asked, double step,
                         const Case& settings, const LevelValues& level, bool read);
 
-// Expected relative errors of N and A, and of N for a punch whose edge lies between points `side` apart [length].
+// Expected relative errors of N and A, and of N for a punch whose edge lies between points `side`
+// apart [length].
 GridError error_of_grid(const LevelValues& level, const Indenter& indenter, double side, bool read);
 
 // Lower bounds of the errors of contacts on ridges, whose crests lie between the points: a contact
