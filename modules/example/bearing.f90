@@ -92,9 +92,9 @@ contains
     friction = (shear + mu*share)/max(film + share, tiny(1.0_real64))
   end subroutine
 
-  !> The infinitely wide slider of smooth faces: load 6 eta U (L/g)^2 [ln(1 + k)/k^2 - 2/(k (2
-  !> + k))] and shear eta U (L/g) [4 ln(1 + k)/k - 6/(2 + k)], k = fall/g. Flow factors of a thick film
-  !> are 1 - O((sigma/h)^2).
+  !> The infinitely wide slider of smooth faces, with k = fall/g: load 6 eta U (L/g)^2 [ln(1 + k)
+  !> /k^2 - 2/(k (2 + k))], shear eta U (L/g) [4 ln(1 + k)/k - 6/(2 + k)]. Flow factors of thick
+  !> films are 1 - O((sigma/h)^2).
   subroutine check_thick_film(speed, gap, film, shear)
     real(real64), intent(in) :: speed, gap, film, shear
     real(real64) :: k, smooth, smooth_shear

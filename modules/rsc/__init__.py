@@ -28,6 +28,7 @@ parallel, as do read-only calls on one object; a call that changes an object wai
 
 from __future__ import annotations
 
+from . import law as law
 from ._case import Case, keys, study
 from ._case import Source as Source, Value as Value
 from ._contact import Answer, Contact, Level, Spots, indent_all, press_all, step_all
@@ -78,6 +79,7 @@ __all__ = [
     "FrictionState",
     "SpotSlip",
     "LEVELS",
+    "law",
     "read",
     "stiffness_ratio",
     "study",

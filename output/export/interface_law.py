@@ -51,8 +51,8 @@ class Interface(laws.Law):
         return float(np.mean(np.ma.filled(self.file[name][...].astype(float), np.nan)))
 
     def _summits(self):
-        """Density, mean radius and standard deviation of heights of the summits, from the moments
-        of the surface (McCool 1987); None without them."""
+        """Density, mean radius, standard deviation of heights and mean height of the summits, from
+        the moments of the surface (Nayak 1971, McCool 1987); None without them."""
         m2, m4 = self._number("m2"), self._number("m4")
         if not (m2 > 0 and m4 > 0 and self.sigma > 0):
             return None
@@ -61,6 +61,7 @@ class Interface(laws.Law):
             m4 / (6 * np.pi * np.sqrt(3) * m2),
             0.375 * np.sqrt(np.pi / m4),
             self.sigma * np.sqrt(max(1 - 0.8968 / bandwidth, 0)),
+            4 * self.sigma / np.sqrt(np.pi * bandwidth),
         )
 
     def _rows(self, name, part=None):
@@ -191,10 +192,11 @@ class Interface(laws.Law):
             f"status of the levels, the worst of the realizations: {self.statuses}",
         ]
         if self.summits:
-            density, radius, deviation = self.summits
+            density, radius, deviation, height = self.summits
             lines.append(
                 f"rms height {self.sigma:.6g}; summits (McCool 1987): density {density:.6g}, mean "
-                f"radius {radius:.6g}, deviation of heights {deviation:.6g}, product "
+                f"radius {radius:.6g}, mean height {height:.6g}, deviation of heights "
+                f"{deviation:.6g}, density x radius x deviation "
                 f"{density * radius * deviation:.6g}; E* = {self.e_star:.6g}"
             )
         if self.yields:

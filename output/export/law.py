@@ -254,11 +254,24 @@ def abaqus(law, name):
     return lines
 
 
-def conductance(path, card):
-    """Lines of a deck: thermal conductance per area against pressure."""
+def conducting(path, write, name):
+    """A deck with the thermal conductance per area against pressure. In CalculiX 2.20 this works
+    with SURFACE TO SURFACE alone, where a tabular pressure-overclosure law transmits no pressure:
+    the law is replaced by a straight line of its largest slope."""
     from interface_law import Interface
 
     law = Interface(path)
+    lines, card = write(law, name), "*GAP CONDUCTANCE, PRESSURE"
+    if write is calculix and law.flats:
+        slope = np.max(np.diff(law.load) / np.diff(law.approach))
+        card = "*GAP CONDUCTANCE"
+        lines = [f"** {line}" for line in law.comment()] + [
+            "** for heat: use it with *CONTACT PAIR, TYPE=SURFACE TO SURFACE. The slope is the "
+            "largest of the law; with the table the interface would not conduct (ccx 2.20)",
+            f"*SURFACE INTERACTION, NAME={name}",
+            "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR",
+            f"{slope:.10g}",
+        ]
     column = law["conductance"]
     if not law.flats or column is None or not law.resistivity:
         raise Refused(
@@ -266,7 +279,7 @@ def conductance(path, card):
             "solids%resistivity [K/W times the unit of length]"
         )
     rows = [(v, p) for v, p in zip(column.values, law["pressure"].values) if p > 0][::-1]
-    return [
+    return lines + [
         f"** conductance per area [{column.unit}], pressure [{law['pressure'].unit}]",
         card,
         *(f"{v:.10g}, {p:.10g}" for v, p in [(0.0, 0.0)] + rows),
@@ -370,8 +383,7 @@ def main(words=None):
     arguments = parser.parse_args(words)
     if arguments.netcdf and not arguments.output:
         parser.error("--netcdf needs -o FILE")
-    card = {calculix: "*GAP CONDUCTANCE", abaqus: "*GAP CONDUCTANCE, PRESSURE"}.get(arguments.write)
-    if arguments.conductance and not card:
+    if arguments.conductance and arguments.write not in (calculix, abaqus):
         parser.error("--conductance needs --calculix or --abaqus")
     try:
         if arguments.netcdf:
@@ -380,9 +392,10 @@ def main(words=None):
             write_netcdf(Interface(arguments.result), arguments.output)
             print(arguments.output)
             return
-        lines = arguments.write(Law(arguments.result), arguments.name)
         if arguments.conductance:
-            lines += conductance(arguments.result, card)
+            lines = conducting(arguments.result, arguments.write, arguments.name)
+        else:
+            lines = arguments.write(Law(arguments.result), arguments.name)
         if arguments.output:
             with open(arguments.output, "w", encoding="utf-8") as out:
                 out.write("\n".join(lines) + "\n")

@@ -1,5 +1,6 @@
 """The law of an interface of two flats beside the formulas that it replaces."""
 
+import math
 import os
 import sys
 
@@ -8,13 +9,15 @@ import numpy as np
 from plot_curves import begin, title
 from plot_style import GREY, label
 
+_erf = np.vectorize(math.erf)
+DASHES = (0, (6, 1.5, 1, 1.5))
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "export"))
 
 
 def law(results, options):
     """Pressure and flow factors against the mean gap, of the first result with permeability and
-    shear flow; Greenwood and Tripp (1970) with the surface's own summits, Persson (2007), Patir and
-    Cheng (1978, 1979)."""
+    shear flow; Greenwood and Williamson (1966), Greenwood and Tripp (1970) with the own
+    summits of the surface, Persson (2007), Patir and Cheng (1978, 1979)."""
     results = [r for r in results if "permeability" in r and "shear_flow" in r and "pressure" in r]
     if not results:
         return None
@@ -33,8 +36,13 @@ def law(results, options):
     page.entry("rsc, along x", color=colour)
     page.entry("rsc, along y", color=colour, ls=":")
     _pressure(page.axes[0], interface, ratio, H, colour)
+    widths, pressures = persson(result, interface)
+    if widths is not None:
+        page.axes[0].plot(widths, pressures, ":", color=GREY, lw=1.2)
+        page.entry("Persson", color=GREY, ls=":")
     if interface.summits:
-        page.entry("Greenwood, Tripp: own summits", color=GREY, ls="--")
+        page.entry("Greenwood, Williamson", color=GREY, ls="--")
+        page.entry("Greenwood, Tripp", color=GREY, ls=DASHES)
     page.entry("Patir, Cheng: isotropic", color=GREY, ls="-.")
     # Patir and Cheng's h is the distance of the mean planes of rigid, truncated surfaces.
     mean = truncated(H)
@@ -49,9 +57,9 @@ def law(results, options):
     for axis in page.axes:
         label(axis, "x", r"mean gap over rms height, $h/\sigma$")
         axis.set_xlim(0, min(6.0, 1.05 * ratio.max()))
-    label(page.axes[1], "y", r"pressure flow factor $12 K/h^3$")
+    label(page.axes[1], "y", r"$\phi_p = 12 K/h^3$")
     page.axes[1].set_ylim(0, None)
-    label(page.axes[2], "y", r"shear flow factor $(h - 2 S)/\sigma$")
+    label(page.axes[2], "y", r"$\phi_s = (h - 2 S)/\sigma$")
     return page.finish(title(results[:1], "The law of the interface, and the formulas"))
 
 
@@ -62,14 +70,12 @@ def _pressure(axis, interface, ratio, H, colour):
     touches = load > 0
     axis.plot(ratio[touches], load[touches], color=colour, marker=".", ms=4)
     if interface.summits:
-        density, radius, deviation = interface.summits
-        axis.plot(
-            truncated(H),
-            greenwood_tripp(H, density, radius, interface.sigma),
-            "--",
-            color=GREY,
-            lw=1.0,
-        )
+        density, radius, deviation, height = interface.summits
+        sigma, mean = interface.sigma, truncated(H)
+        one = greenwood_williamson((sigma * H - height) / deviation, density, radius, deviation)
+        axis.plot(mean, one, "--", color=GREY, lw=1.0)
+        # As in codes for lubrication: of the surfaces' mean planes and rms height.
+        axis.plot(mean, greenwood_tripp(H, density, radius, sigma), ls=DASHES, color=GREY, lw=1.0)
     axis.set_yscale("log")
     axis.set_ylim(0.5 * load[touches].min(), 3 * load[touches].max())
     label(axis, "y", "pressure $p/E^*$")
@@ -81,18 +87,56 @@ def _normal(H):
 
 def truncated(H):
     """Mean gap over sigma of rigid Gaussian heights cut off at the distance H sigma."""
-    s = np.linspace(-9, 9, 9001)
-    above = np.cumsum(_normal(s)) * (s[1] - s[0])  # probability of heights below s
-    return H * np.interp(H, s, above) + _normal(H)
+    return H * (1 + _erf(H / np.sqrt(2))) / 2 + _normal(H)
+
+
+def greenwood_williamson(t, density, radius, deviation):
+    """p/E* = (4/3) density sqrt(radius deviation^3) F(t), with F the mean of (s - t)^(3/2) over
+    Gaussian s > t; t: distance from the summits' mean plane over the deviation of their heights."""
+    return 4 / 3 * density * np.sqrt(radius * deviation**3) * _above(t, 1.5)
 
 
 def greenwood_tripp(H, density, radius, sigma):
     """p/E* = (16 sqrt(2) pi/15) (density radius sigma)^2 sqrt(sigma/radius) F(H), with F the mean
     of (s - H)^(5/2) over Gaussian s > H (Greenwood and Tripp 1970)."""
-    t = np.linspace(0, 9, 2001)
-    F = np.array([t[1] * np.sum(t**2.5 * _normal(t + h)) for h in H])
     product = density * radius * sigma
-    return 16 * np.sqrt(2) * np.pi / 15 * product**2 * np.sqrt(sigma / radius) * F
+    return 16 * np.sqrt(2) * np.pi / 15 * product**2 * np.sqrt(sigma / radius) * _above(H, 2.5)
+
+
+def _above(H, power):
+    """The mean of (s - H)^power over Gaussian s > H."""
+    t = np.linspace(0, 12, 2001)
+    return np.array([t[1] * np.sum(t**power * _normal(t + h)) for h in H])
+
+
+def persson(result, interface):
+    """Mean gaps over sigma and p/E* of self-affine surfaces, with gamma = 0.45 (Yang and Persson,
+    J. Phys.: Condens. Matter 20, 215214, 2008); None, None for other surfaces."""
+    case = result.case
+    made = case.get("surface%source") == "'synthetic'" and case.get("surface%plateau") == ".false."
+    if not made or float(case["surface%aspect"]) != 1 or not interface.sigma > 0:
+        return None, None
+    gamma = 0.45
+    hurst, first, last = (
+        float(case["surface%" + key]) for key in ("hurst", "L_lambda_l", "L_lambda_s")
+    )
+    # Waves in units of the longest; sigma^2 = 2 pi int q C dq = 1.
+    t = np.linspace(0, np.log(last / first), 400)[1:]
+    q, dq = np.exp(t), np.exp(t) * (t[1] - t[0])
+    C = q ** (-2 * (1 + hurst))
+    C /= 2 * np.pi * np.sum(q * C * dq)
+    w = 1 / np.sqrt(np.pi * np.cumsum(q**3 * C * dq))
+    load = interface["pressure"].values
+    load = load[load > 0] / interface.e_star
+    # Slopes are sigma times the longest wave in these units.
+    steepness = interface.sigma * 2 * np.pi * first / float(case["surface%L"])
+    ends = np.log([load.min() / steepness, 20 / w.min()])
+    s = np.linspace(*ends, 600)
+    p = np.exp(s)[:, None]
+    inner = (gamma + 3 * (1 - gamma) * _erf(w * p) ** 2) * np.exp(-((w * p) ** 2))
+    tail = np.cumsum(inner[::-1], axis=0)[::-1] * (s[1] - s[0])  # int from p on of dp'/p'
+    gap = np.sqrt(np.pi) * np.sum(q**2 * C * w * dq * tail, axis=1)
+    return gap, p[:, 0] * steepness
 
 
 def patir_cheng_pressure(H):
