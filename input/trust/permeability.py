@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Calibrates the expected error of the permeability: `part` of src/physics/flow/flow.cpp.
+"""Calibrates the expected errors of the permeability and of the shear flow: `part` of
+permeability_error and of shear_flow_error in src/physics/flow/flow.cpp.
 
     permeability.py [--rsc ./rsc] [--surfaces 8]
 
-The error is stated as part |ln(K/K_c)|, where K_c is the permeability of the same gap on every
-second point. Flats with 8 points in the shortest wave are solved again with 24, at three pressures
-each; printed are the part that holds for 90 % of the values, and what the present one holds for.
-Needs numpy and netCDF4; takes some minutes."""
+The error is stated as part |ln(K/K_c)|, where K_c is that of the same gap on every second point.
+Flats with 8 points in the shortest wave are solved again with 24, at three pressures each; printed
+are the part that holds for 90 % of the values, and what the present one holds for. Needs numpy and
+netCDF4; takes some minutes."""
 import argparse
 import math
 import os
@@ -28,7 +29,8 @@ import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 with open(os.path.join(HERE, "..", "..", "src", "physics", "flow", "flow.cpp")) as source:
-    PART = float(re.search(r"double part = ([\d.]+)", source.read())[1])
+    parts = [float(part) for part in re.findall(r"double part = ([\d.]+)", source.read())]
+PARTS = dict(zip(("permeability", "shear_flow"), parts, strict=True))
 E_STAR = 1e4 / 0.91
 
 
@@ -53,9 +55,8 @@ def solved(o, number, points, folder):
     )
     subprocess.run([o.rsc, "-q", "--progress", "never"], input=case, text=True, check=True)
     with netCDF4.Dataset(path) as file:
-        K = np.ma.filled(file["permeability"][0], np.nan)[:, :2]
-        error = np.ma.filled(file["permeability_error_expected"][0], np.nan)[:, :2]
-        return K, error, np.array(file["area_fraction"][0])
+        values = lambda name: np.ma.filled(file[name][0], np.nan)[:, :2]
+        return {name: (values(name), values(name + "_error_expected")) for name in PARTS}
 
 
 def main():
@@ -63,23 +64,25 @@ def main():
     parser.add_argument("--rsc", default="./rsc")
     parser.add_argument("--surfaces", type=int, default=8)
     o = parser.parse_args()
-    ratios, change = [], []
+    ratios, change = ({name: [] for name in PARTS} for _ in range(2))
     with tempfile.TemporaryDirectory() as folder:
         for number in range(o.surfaces):
-            K, error, share = solved(o, number, 8, folder)
-            finer = solved(o, number, 24, folder)[0]
-            with np.errstate(divide="ignore", invalid="ignore"):
-                off = np.log(finer / K)
-            good = np.isfinite(off) & (error > 0)
-            ratios += list((np.abs(off) / error)[good])
-            change += list(off[good])
-            print(f"surface {number}: A/A0 {share.round(2)}, ln(K fine/K) {off.round(3).tolist()}")
-    ratios = np.array(ratios)
-    print(
-        f"{len(ratios)} values: 90 % within part = {PART * np.quantile(ratios, 0.9):.2f}; part ="
-        f" {PART}: {100 * np.mean(ratios <= 1):.0f} % within, stated over true"
-        f" {np.median(1 / ratios):.1f} in the median; K is low by {np.median(change):.3f}"
-    )
+            coarse, fine = (solved(o, number, points, folder) for points in (8, 24))
+            for name in PARTS:
+                value, error = coarse[name]
+                with np.errstate(divide="ignore", invalid="ignore"):
+                    off = np.log(fine[name][0] / value)
+                good = np.isfinite(off) & (error > 0)
+                ratios[name] += list((np.abs(off) / error)[good])
+                change[name] += list(off[good])
+                print(f"surface {number}, {name}: ln(fine/coarse) {off.round(3).tolist()}")
+    for name, part in PARTS.items():
+        ratio = np.array(ratios[name])
+        print(
+            f"{name}, {len(ratio)} values: 90 % within part = {part * np.quantile(ratio, 0.9):.2f};"
+            f" part = {part}: {100 * np.mean(ratio <= 1):.0f} % within, stated over true"
+            f" {np.median(1 / ratio):.1f} in the median; low by {np.median(change[name]):.3f}"
+        )
 
 
 if __name__ == "__main__":

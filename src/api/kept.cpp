@@ -183,7 +183,7 @@ void visit_arrays(Level& level, Visit&& visit) {
     visit("gaps", level.gaps.of_bin);
 }
 
-constexpr const char* kComponents[] = {"", ".y", ".z"};  // of a quantity of a level
+constexpr const char* kComponents[] = {"", ".y", ".z", ".yx"};  // of a quantity of a level
 
 void put_state(Entries& to, const std::string& prefix, const Path::State& state) {
     to.numbers[prefix + "tip"] = {state.x0, state.y0};

@@ -52,6 +52,8 @@ struct Case {
         double E[2] = {78.0e3, kInfinity}, nu[2] = {0.42, 0.0}, R[2] = {kInfinity, 2.5};
         double hardness = kInfinity, size_effect = 0.0, resistivity[2] = {0.0, 0.0}, friction = 0.0;
         double adhesion = 0.0, adhesion_range = 0.0;
+        double viscosity = 0.0;
+        bool gas = false;
         double wear_coefficient = 0.0;
         std::vector<double> layer_thickness, layer_E, layer_nu;  // from the top; empty: none
         std::vector<double> relaxation_share,
@@ -138,6 +140,7 @@ struct Case {
         Format format = Format::netcdf4;
         Contacts contacts = Contacts::automatic;
         bool heights = false, flow = false;
+        std::optional<double> leak_drop[2], leak_length, leak_width;
         int map_cells = 50, radial_bins = 50;
         std::vector<double> pdf_levels = {2.0, 2.5, 3.0};
         int pdf_bins = 60;

@@ -90,6 +90,14 @@ const char* compute_conductance(LevelSource& source) {
     return nullptr;
 }
 
+const char* compute_conductance_per_area(LevelSource& source) {
+    const Period period = source.contact.indenter().period;
+    if (!period.finite()) return "only two flats have a conductance per area";
+    if (const char* const none = compute_conductance(source)) return none;
+    source.level.conductance_per_area = source.level.conductance_length / period.area();
+    return nullptr;
+}
+
 const char* compute_resistance(LevelSource& source) {
     const auto& resistivity = source.resistivity;
     if (!(resistivity[0] + resistivity[1] > 0))

@@ -23,6 +23,7 @@ const char* compute_stiffness(LevelSource& source);
 const char* compute_lateral_force(LevelSource& source);
 const char* compute_moment(LevelSource& source);
 const char* compute_conductance(LevelSource& source);
+const char* compute_conductance_per_area(LevelSource& source);
 const char* compute_resistance(LevelSource& source);
 
 // Lateral force on the indenter at fixed Z0 [force]: F = -dW/d(x0, y0), where W is the elastic

@@ -53,7 +53,7 @@ constexpr std::array<double, n> none_computed() {
 }
 
 // At least as many as all quantities have components.
-inline constexpr std::size_t kMostComponents = 96;
+inline constexpr std::size_t kMostComponents = 112;
 
 // Scalars of a level, written to checkpoints as they are. One row of the table in
 // contact/quantities.cpp declares each to files, screen and libraries.
@@ -96,7 +96,8 @@ struct LevelValues {
            lateral_y = kNotComputed;  // lateral force on the indenter, -dW/d(x0, y0) [force]
     double moment_x = kNotComputed,
            moment_y = kNotComputed;  // moment of the contact forces about the tip [force length]
-    double conductance_length = kNotComputed;  // -2 (dN/dZ0)/E* [length]
+    double conductance_length = kNotComputed;    // -2 (dN/dZ0)/E* [length]
+    double conductance_per_area = kNotComputed;  // two flats: over A0 [1/length]
     double resistance =
         kNotComputed;           // constriction resistance; NaN without contact or resistivities
     std::int64_t products = 0;  // products with B (matrix-free methods) or linear solves (dgesv)
@@ -122,6 +123,13 @@ struct LevelValues {
     // xx and yy of the same gap on every second point, for the error (not in files)
     double coarse_permeability_x = kNotComputed, coarse_permeability_y = kNotComputed;
     double hydraulic_gap_x = kNotComputed, hydraulic_gap_y = kNotComputed;
+    // flow of a sliding smooth face [length]; coarse: as above
+    double shear_xx = kNotComputed, shear_yy = kNotComputed;
+    double shear_xy = kNotComputed, shear_yx = kNotComputed;
+    double coarse_shear_x = kNotComputed, coarse_shear_y = kNotComputed;
+    double pressure_factor_x = kNotComputed, pressure_factor_y = kNotComputed;  // 12 K/h^3
+    double shear_factor_x = kNotComputed, shear_factor_y = kNotComputed;  // (h - 2 S)/sigma
+    double leak_rate = kNotComputed;  // [length^3/time]
     std::int32_t jumps = 0;             // number of jumps since the previous level
     std::int32_t plastic_contacts = 0;  // yielding contacts at this level
     double time = kNotComputed;         // time of the level, relaxing bodies [time]

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "case/case.hpp"
+#include "case/units.hpp"
 #include "contact/answers.hpp"
 #include "physics/physics.hpp"
 
@@ -338,6 +339,18 @@ constexpr LevelQuantity kRows[] = {
      .always = false,
      .statistics = true,
      .plain = "conductance length"},
+    {.name = "conductance_per_area",
+     .member = &V::conductance_per_area,
+     .length_power = -1,
+     .meaning = "conductance of two flats per nominal area times the sum of the resistivities",
+     .comment = "conductance_length/A0: divided by the sum of the thermal (electrical) "
+                "resistivities the heat flux for a difference of temperatures of 1",
+     .compute = compute_conductance_per_area,
+     .error_factor = 0.044,
+     .error_averages = true,
+     .always = false,
+     .statistics = true,
+     .plain = "conductance per area"},
     {.name = "resistance",
      .member = &V::resistance,
      .unit = "ohm",
@@ -354,7 +367,8 @@ constexpr LevelQuantity kRows[] = {
 };
 
 // Names of components by their number.
-constexpr const char* kComponents[][3] = {{""}, {"_x", "_y"}, {"_xx", "_yy", "_xy"}};
+constexpr const char* kComponents[][4] = {
+    {""}, {"_x", "_y"}, {"_xx", "_yy", "_xy"}, {"_xx", "_yy", "_xy", "_yx"}};
 
 std::vector<LevelQuantity> make_quantities() {
     std::vector<LevelQuantity> all(std::begin(kRows), std::end(kRows));
@@ -375,13 +389,13 @@ std::vector<LevelQuantity> make_quantities() {
 }  // namespace
 
 double LevelQuantity::of(const LevelValues& level, std::size_t component) const {
-    if (component > 0) return level.*(component == 1 ? y : z);
+    if (component > 0) return level.*(component == 1 ? y : component == 2 ? z : yx);
     return std::visit([&](auto m) { return static_cast<double>(level.*m); }, member);
 }
 
 void LevelQuantity::put(LevelValues& level, double value, std::size_t component) const {
     if (component > 0) {
-        level.*(component == 1 ? y : z) = value;
+        level.*(component == 1 ? y : component == 2 ? z : yx) = value;
         return;
     }
     std::visit(
@@ -391,6 +405,13 @@ void LevelQuantity::put(LevelValues& level, double value, std::size_t component)
 
 double LevelQuantity::error(const LevelValues& level, std::size_t component) const {
     return error_member ? level.*error_member : level.errors[slot + component];
+}
+
+std::string LevelQuantity::unit_in(const std::string& length, const std::string& force,
+                                   const std::string& time) const {
+    if (unit) return std::string(unit) == "time" ? time : unit;
+    return unit_of(length, length_power, force, force_power) +
+           (per_time ? " " + unit_of(time, -1) : "");
 }
 
 std::string LevelQuantity::error_name() const {

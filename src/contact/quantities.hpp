@@ -38,7 +38,10 @@ struct LevelQuantity {
     double LevelValues::*y = nullptr;
     // third component of a symmetric tensor: member, y and z are xx, yy and xy
     double LevelValues::*z = nullptr;
+    // fourth component of a tensor that is not symmetric: xx, yy, xy and yx
+    double LevelValues::*yx = nullptr;
     int length_power = 0, force_power = 0;  // powers in its unit
+    bool per_time = false;                  // over the unit of times
     const char* unit = nullptr;  // unit that replaces these powers; "time": the unit of times
     bool of_step = false;        // has the same value in every realization
     const char* meaning = "";    // long_name
@@ -75,7 +78,7 @@ struct LevelQuantity {
     const char* heading = nullptr;  // of its column on the screen; null: not shown
     int width = 0, digits = 0;      // of the column; significant digits of a double, 0: "%.1e"
 
-    std::size_t components() const { return z ? 3 : y ? 2 : 1; }
+    std::size_t components() const { return yx ? 4 : z ? 3 : y ? 2 : 1; }
     // The value of a component as a double; NaN if it was not computed.
     double of(const LevelValues& level, std::size_t component = 0) const;
     // Stores a value returned by of().
@@ -84,6 +87,8 @@ struct LevelQuantity {
     // Expected error of a component: relative, unless error_member is another one; NaN: none is
     // stated.
     double error(const LevelValues& level, std::size_t component = 0) const;
+    std::string unit_in(const std::string& length, const std::string& force,
+                        const std::string& time) const;
     std::string error_name() const;  // of this error in files: name_error_expected
 
     std::size_t slot = 0;  // of its first component in LevelValues::errors; set by the table

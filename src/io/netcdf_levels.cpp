@@ -156,13 +156,18 @@ bool ResultTable::computed(const std::vector<double>& values) {
 // The dimension of the components of a vector, or of a symmetric tensor, which is declared on the
 // first call.
 std::string ResultTable::components(std::size_t number) {
-    const bool vector = number == 2;
-    const std::string name = vector ? "component" : "tensor_component";
+    struct Components {
+        const char *name, *meaning, *each;
+    };
+    constexpr Components kinds[] = {
+        {"component", "component of a vector", "x y"},
+        {"tensor_component", "component of a symmetric tensor", "xx yy xy"},
+        {"component_of_four", "component of a tensor that is not symmetric", "xx yy xy yx"}};
+    const auto& [name, meaning, each] = kinds[number - 2];
     if (!components_.insert(number).second) return name;
     file_.dimension(name, number);
-    add(name, {name}, "1", vector ? "component of a vector" : "component of a symmetric tensor",
-        one_to(number),
-        {{"flag_values", one_to(number)}, {"flag_meanings", vector ? "x y" : "xx yy xy"}});
+    add(name, {name}, "1", meaning, one_to(number),
+        {{"flag_values", one_to(number)}, {"flag_meanings", each}});
     return name;
 }
 

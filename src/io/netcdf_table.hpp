@@ -116,8 +116,7 @@ private:
         return both;
     }
     std::string units(const LevelQuantity& q) const {
-        if (!q.unit) return unit(q.length_power, q.force_power);
-        return std::string(q.unit) == "time" ? r_.settings.run.time_unit : q.unit;
+        return q.unit_in(length_, force_, r_.settings.run.time_unit);
     }
     void means();
     void surfaces();

@@ -226,9 +226,8 @@ void print_heading(std::ostream& out, const Job& job) {
     for (const LevelQuantity& q : level_quantities()) {
         if (!shown(q, job)) continue;
         std::string heading = q.heading;
-        if (q.length_power != 0 || q.force_power != 0)
-            heading += " [" + unit_of(l, q.length_power, f, q.force_power) + "]";
-        if (q.of_step && q.unit) heading += " [" + job.settings.run.time_unit + "]";
+        if (const std::string unit = q.unit_in(l, f, job.settings.run.time_unit); unit != "1")
+            heading += " [" + unit + "]";
         out << format(" %*s", q.width, heading.c_str());
     }
     out << '\n';

@@ -78,23 +78,42 @@ const char* compute_gap(LevelSource& source) {
 
 namespace {
 
-// Geometric mean of the permeabilities of the gap on every second point, of both diagonal choices;
-// NaN for odd numbers of points.
-Permeability coarse_permeability(const GapMap& map) {
-    if (map.nx % 2 != 0 || map.ny % 2 != 0) return {kNotComputed, kNotComputed, kNotComputed};
+// Geometric means of K and S along x and along y of the gap on every second point, of both diagonal
+// choices; NaN for odd numbers of points.
+GapFlow coarse_flow(const GapMap& map) {
+    constexpr double none = kNotComputed;
+    if (map.nx % 2 != 0 || map.ny % 2 != 0) return {{none, none, none}, {none, none, none, none}};
     const int nx = map.nx / 2, ny = map.ny / 2;
-    double xx = 1, yy = 1;
+    GapFlow product{{1, 1, none}, {1, none, none, 1}};
     for (const int offset : {0, 1}) {
         std::vector<double> gap;
         gap.reserve(at(nx) * at(ny));
         for (const int j : indices(ny))
             for (const int i : indices(nx))
                 gap.push_back(map.gap[at(2 * j + offset) * at(map.nx) + at(2 * i + offset)]);
-        const Permeability k = permeability({nx, ny, 2 * map.dx, 2 * map.dy, gap}).K;
-        xx *= k.xx;
-        yy *= k.yy;
+        const GapFlow one = permeability({nx, ny, 2 * map.dx, 2 * map.dy, gap});
+        product.K.xx *= one.K.xx;
+        product.K.yy *= one.K.yy;
+        product.S.xx *= one.S.xx;
+        product.S.yy *= one.S.yy;
     }
-    return {std::sqrt(xx), std::sqrt(yy), kNotComputed};
+    for (double* p : {&product.K.xx, &product.K.yy, &product.S.xx, &product.S.yy})
+        *p = std::sqrt(*p);
+    return product;
+}
+
+// Those of Patir and Cheng, of the mean gap with its closed parts, and the rms height of the map.
+void add_flow_factors(LevelValues& level, const HeightMap& map) {
+    const double h = level.gap_mean;
+    if (!(h > 0)) return;  // full contact
+    level.pressure_factor_x = 12 * level.permeability_xx / (h * h * h);
+    level.pressure_factor_y = 12 * level.permeability_yy / (h * h * h);
+    const double mean = mean_present(map, [](double z, int, int) { return z; });
+    const double sigma =
+        std::sqrt(mean_present(map, [&](double z, int, int) { return (z - mean) * (z - mean); }));
+    if (!(sigma > 0)) return;
+    level.shear_factor_x = (h - 2 * level.shear_xx) / sigma;
+    level.shear_factor_y = (h - 2 * level.shear_yy) / sigma;
 }
 
 }  // namespace
@@ -114,21 +133,53 @@ double hydraulic_gap_error(const LevelValues& level, std::size_t component) {
     return permeability_error(level, component) / 3;
 }
 
+double shear_flow_error(const LevelValues& level, std::size_t component) {
+    constexpr double part = 0.36;  // by the same script
+    if (component > 1) return kNotComputed;
+    const double S = component == 0 ? level.shear_xx : level.shear_yy,
+                 coarse = component == 0 ? level.coarse_shear_x : level.coarse_shear_y;
+    return S > 0 && coarse > 0 ? part * std::abs(std::log(S / coarse)) : kNotComputed;
+}
+
+double shear_factor_error(const LevelValues& level, std::size_t component) {
+    const double twice = 2 * (component == 0 ? level.shear_xx : level.shear_yy);
+    return shear_flow_error(level, component) * std::abs(twice / (level.gap_mean - twice));
+}
+
+const char* compute_leak(LevelSource& source) {
+    const Leak& leak = source.physics->of<Leak>();
+    if (!leak.asked()) return "the leak rate needs output%leak_drop";
+    if (const char* const none = compute_permeability(source)) return none;
+    const auto [inlet, outlet] = leak.pressures;
+    const double drop =
+        leak.gas ? (inlet * inlet - outlet * outlet) / (2 * outlet) : inlet - outlet;
+    source.level.leak_rate =
+        source.level.permeability_xx * drop * leak.width / (leak.viscosity * leak.length);
+    return nullptr;
+}
+
 const char* compute_permeability(LevelSource& source) {
     if (const char* const none = compute_gap(source)) return none;
     if (!has_permeability()) return "this rsc was built without CHOLMOD";
     LevelValues& level = source.level;
     if (!std::isnan(level.permeability_xx)) return nullptr;
-    const Permeability k =
-        permeability(gap_of(source), source.for_fields ? &source.flux : nullptr).K;
+    const GapFlow flow = permeability(gap_of(source), source.for_fields ? &source.flux : nullptr);
+    const auto& [k, s] = flow;
     level.permeability_xx = k.xx;
     level.permeability_yy = k.yy;
     level.permeability_xy = k.xy;
-    const Permeability coarse = coarse_permeability(gap_of(source));
-    level.coarse_permeability_x = coarse.xx;
-    level.coarse_permeability_y = coarse.yy;
+    level.shear_xx = s.xx;
+    level.shear_yy = s.yy;
+    level.shear_xy = s.xy;
+    level.shear_yx = s.yx;
+    const GapFlow coarse = coarse_flow(gap_of(source));
+    level.coarse_permeability_x = coarse.K.xx;
+    level.coarse_permeability_y = coarse.K.yy;
+    level.coarse_shear_x = coarse.S.xx;
+    level.coarse_shear_y = coarse.S.yy;
     level.hydraulic_gap_x = std::cbrt(12 * k.xx);
     level.hydraulic_gap_y = std::cbrt(12 * k.yy);
+    add_flow_factors(level, *source.map);
     return nullptr;
 }
 

@@ -11,6 +11,8 @@ namespace {
 
 bool flow_asked(const Case& settings) { return settings.output.flow; }
 
+bool leak_asked(const Case& settings) { return settings.output.leak_drop[0].has_value(); }
+
 // Levels of two flats by elements have a gap.
 bool has_gap(const Case& settings) {
     return settings.indentation.boundary == Boundary::periodic && by_elements(settings);
@@ -21,11 +23,45 @@ std::vector<Key> flow_keys() {
     return {
         number(RSC_KEY(output, flow), "", kAny,
                "permeability of the gap between two flats at each level, by elements with boundary "
-               "= 'periodic'"),
+               "= 'periodic', and the flow that a sliding smooth face drags along"),
+        number(RSC_KEY(output, leak_drop), "force/length^2", kNotNegative,
+               "pressures of the fluid at the inlet and at the outlet of a seal, for its leak rate",
+               "no leak rate"),
+        number(RSC_KEY(output, leak_length), "length", kPositive,
+               "length of the seal from inlet to outlet, along x", "none: leak_drop needs it"),
+        number(RSC_KEY(output, leak_width), "length", kPositive,
+               "width of the seal across the flow", "none: leak_drop needs it"),
+        number(RSC_KEY(solids, viscosity), "force time/length^2", kNotNegative,
+               "viscosity of the fluid, for the leak rate"),
+        number(RSC_KEY(solids, gas), "", kAny,
+               "the fluid is an ideal gas at constant temperature; its leak rate is the volume at "
+               "the pressure of the outlet"),
     };
 }
 
+// The leak rate needs all of its keys.
+void check_leak(const Case& settings, const Complain& complain) {
+    const auto& o = settings.output;
+    const double viscosity = settings.solids.viscosity;
+    const bool asked = o.leak_drop[0].has_value();
+    if (!asked && (o.leak_length || o.leak_width))
+        complain({o.leak_length ? "output%leak_length" : "output%leak_width", "output%leak_drop"},
+                 "it is for the leak rate; give output%leak_drop = P1, P2");
+    if (!asked) return;
+    if (!o.flow)
+        complain({"output%leak_drop", "output%flow"}, "a leak rate needs output%flow = .true.");
+    if (!o.leak_length || !o.leak_width || !(viscosity > 0))
+        complain({"output%leak_drop"},
+                 "a leak rate needs output%leak_length, output%leak_width and solids%viscosity");
+    if (!(*o.leak_drop[0] >= *o.leak_drop[1]))
+        complain({"output%leak_drop"}, "the first pressure, at the inlet, must not be lower");
+    if (settings.solids.gas && !(*o.leak_drop[1] > 0))
+        complain({"output%leak_drop", "solids%gas"},
+                 "a gas has no volume at the pressure 0: the second pressure must be > 0");
+}
+
 void check_flow(const Case& settings, const Complain& complain) {
+    check_leak(settings, complain);
     if (!settings.output.flow) return;
     if (settings.indentation.boundary != Boundary::periodic)
         complain({"output%flow", "indentation%boundary"},
@@ -108,6 +144,59 @@ std::vector<LevelQuantity> flow_quantities() {
          .heading = "hydraulic",
          .width = 14,
          .digits = 5},
+        {.name = "shear_flow",
+         .member = &V::shear_xx,
+         .y = &V::shear_yy,
+         .z = &V::shear_xy,
+         .yx = &V::shear_yx,
+         .length_power = 1,
+         .meaning = "flow that the smooth face drags along when it slides over the rough one, S",
+         .comment = "flux per width q = S U for its velocity U, the rough face at rest; xy: along "
+                    "x for a velocity along y; a parallel gap h has h/2",
+         .compute = compute_permeability,
+         .in_run = flow_asked,
+         .own_error = shear_flow_error,
+         .always = false,
+         .plain = "shear flow"},
+        {.name = "flow_factor_pressure",
+         .member = &V::pressure_factor_x,
+         .y = &V::pressure_factor_y,
+         .unit = "1",
+         .meaning = "pressure flow factor of Patir and Cheng, 12 K/h^3, along x and along y",
+         .comment = "h: the mean gap, closed parts included; missing in full contact",
+         .compute = compute_permeability,
+         .in_run = flow_asked,
+         .own_error = permeability_error,
+         .always = false,
+         .plain = "pressure flow factor"},
+        {.name = "flow_factor_shear",
+         .member = &V::shear_factor_x,
+         .y = &V::shear_factor_y,
+         .unit = "1",
+         .meaning = "shear flow factor of Patir and Cheng, (h - 2 S)/sigma, along x and along y",
+         .comment = "h: the mean gap, closed parts included; sigma: rms height of the surface",
+         .compute = compute_permeability,
+         .in_run = flow_asked,
+         .own_error = shear_factor_error,
+         .always = false,
+         .plain = "shear flow factor"},
+        {.name = "leak_rate",
+         .member = &V::leak_rate,
+         .length_power = 3,
+         .per_time = true,
+         .meaning = "volume that leaks through the seal along x in a unit of time",
+         .comment = "K_xx w (P1 - P2)/(eta l); of a gas K_xx w (P1^2 - P2^2)/(2 eta l P2), its "
+                    "volume at the outlet's pressure",
+         .compute = compute_leak,
+         .in_run = leak_asked,
+         .own_error = permeability_error,
+         .always = false,
+         .shown = leak_asked,
+         .statistics = true,
+         .plain = "leak rate",
+         .heading = "leak",
+         .width = 16,
+         .digits = 5},
     };
 }
 
@@ -141,10 +230,12 @@ void print_gap(std::ostream& out, const RunFacts& run) {
                   run.levels.size());
     if (count > 0) out << format(", up to A/A0 = %.3g", most);
     if (least < kInfinity) out << format("; closed at A/A0 = %.3g and above", least);
+    out << '\n';
+    if (leak_asked(run.settings)) return;
     const auto& [l, f, t] = std::tie(run.settings.run.length_unit, run.settings.run.force_unit,
                                      run.settings.run.time_unit);
     out << format(
-        "\n  leak rate = K w dP/(eta l) [%s/%s] for a pressure drop dP [%s] over the length l of "
+        "  leak rate = K w dP/(eta l) [%s/%s] for a pressure drop dP [%s] over the length l of "
         "the seal along x, its width w and the viscosity eta [%s %s]; hydraulic gap h: K = "
         "h^3/12\n",
         unit_of(l, 3, "", 0).c_str(), t.c_str(), unit_of(l, -2, f, 1).c_str(),
@@ -157,7 +248,17 @@ const Physics kFlow = {
     .name = "flow",
     .key = "output%flow",
     .keys = flow_keys,
-    .take = [](const Case& c, BodyPhysics& bodies) { bodies.of<FlowAsked>() = {c.output.flow}; },
+    .take =
+        [](const Case& c, BodyPhysics& bodies) {
+            bodies.of<FlowAsked>() = {c.output.flow};
+            const auto& [inlet, outlet] = c.output.leak_drop;
+            if (!inlet || !outlet) return;
+            bodies.of<Leak>() = {{*inlet, *outlet},
+                                 c.output.leak_length.value_or(0),
+                                 c.output.leak_width.value_or(0),
+                                 c.solids.viscosity,
+                                 c.solids.gas};
+        },
     .asked = [](const BodyPhysics& bodies) { return bodies.of<FlowAsked>().asked; },
     .check = check_flow,
     .needs_elements = [](const Case&) { return "output%flow needs them"; },

@@ -6,6 +6,7 @@ usage: test_law.py FOLDER_OF_EXPORT UINTER BEARING PARTICLES     (RSC_PROGRAM in
 """
 import contextlib
 import io
+import math
 import os
 import subprocess
 import sys
@@ -374,9 +375,28 @@ class Interface(unittest.TestCase):
         self.assertTrue(np.allclose(law.evaluate("stiffness", force=[1, 3, 10])[0], [3, 9, 30]))
         self.assertIn("has no permeability", run(file, "--lubrication"))
 
+    def test_formulas(self):
+        """Those of the picture, against closed forms of Gaussian heights."""
+        import plot_law
+
+        for H in (0.0, 0.7, 2.5, 4.0):
+            above = math.erfc(H / math.sqrt(2)) / 2
+            density = math.exp(-(H**2) / 2) / math.sqrt(2 * math.pi)
+            gap, square = H * (1 - above) + density, (1 + H**2) * above - H * density
+            self.assertAlmostEqual(float(plot_law.truncated(np.array([H]))[0]), gap, delta=1e-12)
+            self.assertAlmostEqual(plot_law._above([H], 2)[0] / square, 1, delta=1e-4)
+
     def test_bearing_and_particles(self):
         """The examples, with laws that rsc computes; each checks its result."""
         for program, text, flag, words in (
+            (
+                BEARING,
+                "&solids R=Infinity,Infinity / &solver model='elements' / "
+                "&surface L=0.2 sigma=4e-4 L_lambda_l=4 L_lambda_s=12 / &output flow=.true. / "
+                "&indentation boundary='periodic' levels=15,10,7,5,4,3.4,3,2.5,2,1.5,1,0.6,0.3 /",
+                "--lubrication",
+                "thick film over smooth faces",
+            ),
             (
                 PARTICLES,
                 SURFACE + "&indentation levels=3,2.5,2,1.5,1,0.5,0,-1,-2 /",
@@ -390,6 +410,18 @@ class Interface(unittest.TestCase):
             done = subprocess.run([program, target], text=True, capture_output=True)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             self.assertIn(words, done.stdout)
+            if program == BEARING:
+                table = os.path.join(FOLDER, "stribeck.txt")
+                with open(table, "w", encoding="utf-8") as out:
+                    out.write(done.stdout)
+                script = os.path.join(os.path.dirname(rsc.__file__), "..", "example", "bearing.py")
+                subprocess.run([sys.executable, script, table], check=True, capture_output=True)
+                self.assertTrue(os.path.exists(table.replace("txt", "png")))
+                import plot
+
+                with contextlib.redirect_stdout(io.StringIO()):
+                    plot.main([result, "--only", "law"])
+                self.assertTrue(os.path.exists(path("example_law").replace(".nc", ".png")))
 
 
 class Uinter(unittest.TestCase):

@@ -132,6 +132,25 @@ TEST(shear_flow_by_conjugate_gradients) {
     CHECK(worst < 1e-10);
 }
 
+// Roughness of small variance s in a wide gap h = 1: 12 K = 1 + 3 s - 9 s <cos^2> and 2 S = 1 - 3 s
+// <cos^2>, of the angle between the waves and the direction (Patir and Cheng's limits: along a lay
+// 1 + 3 s and 1, across it 1 - 6 s and 1 - 3 s). The sum of both directions holds for any sample.
+TEST(wide_gaps) {
+    const int nx = 96, ny = 80;
+    const std::vector<double> z = noise(nx, ny, 4, 3);
+    double variance = 0;
+    const double mean = sum_of(z) / double(z.size());
+    for (const double height : z) variance += (height - mean) * (height - mean) / double(z.size());
+    for (const double rms : {0.02, 0.01}) {
+        const GapFlow flow = permeability(view(
+            gap(nx, ny, 0.5, 0.6, [&](int i, int j) { return 1 + rms * (z[j * nx + i] - mean); })));
+        const double s = rms * rms * variance;
+        const double tolerance = 0.02 * s;  // waves of 20 points, and terms of s^2
+        CHECK_CLOSE(12 * (flow.K.xx + flow.K.yy), 2 - 3 * s, 3 * tolerance);
+        CHECK_CLOSE(2 * (flow.S.xx + flow.S.yy), 2 - 3 * s, 3 * tolerance);
+    }
+}
+
 TEST(channels_dead_ends_and_islands) {
     // A channel one pixel wide along x carries what its resistance lets through; a pocket beside
     // it, and an island, carry nothing.
@@ -213,12 +232,13 @@ TEST(every_point_is_eliminated_once) {
 }
 
 constexpr const char* kFlats =
-    "&solids E = Infinity, 5.0 nu = 0.3, 0.49 R = Infinity, Infinity /\n"
+    "&solids E = Infinity, 5.0 nu = 0.3, 0.49 R = Infinity, Infinity viscosity = 1e-9 /\n"
     "&surface L = 0.5 sigma = 8e-4 L_lambda_l = 4 L_lambda_s = 12 n = 64 /\n"
     "&solver model = 'elements' /\n"
     "&indentation boundary = 'periodic' control = 'pressure' unit = 'pressure' "
     "levels = 0.01, 0.02, 0.3 /\n"
-    "&output flow = .true. fields = 'gap', 'flow' field_levels = 0.01, 0.02 /\n";
+    "&output flow = .true. fields = 'gap', 'flow' field_levels = 0.01, 0.02\n"
+    " leak_drop = 0.3, 0.1 leak_length = 2.0 leak_width = 50.0 /\n";
 
 TEST(the_gap_of_a_level) {
     const Job job = prepare(settings_of(kFlats));
@@ -236,6 +256,15 @@ TEST(the_gap_of_a_level) {
         CHECK_CLOSE(level.permeability_xy, K[2], 1e-8 * K[0]);
         CHECK_RELATIVE(level.hydraulic_gap_x, std::cbrt(12 * K[0]), 1e-8);
         CHECK(level.hydraulic_gap_x < level.gap_mean_open);
+        const auto S = truth::shear_flow(m);
+        CHECK_RELATIVE(level.shear_xx, S[0], 1e-8);
+        CHECK_CLOSE(level.shear_xy, S[1], 1e-8 * S[0]);
+        CHECK_CLOSE(level.shear_yx, S[2], 1e-8 * S[0]);
+        CHECK_RELATIVE(level.shear_yy, S[3], 1e-8);
+        const double h = sum_of(m.g) / double(points);
+        CHECK_RELATIVE(level.pressure_factor_y, 12 * K[1] / (h * h * h), 1e-8);
+        CHECK_RELATIVE(level.shear_factor_x, (h - 2 * S[0]) / 8e-4, 1e-6);
+        CHECK_RELATIVE(level.leak_rate, K[0] * (0.3 - 0.1) * 50 / (1e-9 * 2), 1e-8);
         // Deflections have no mean: the mean gap is the separation.
         CHECK_RELATIVE(level.gap_mean, level.separation, 1e-4);
         CHECK(level.percolates_x == 1 && level.percolates_y == 1);
@@ -250,6 +279,26 @@ TEST(the_gap_of_a_level) {
     CHECK_RELATIVE(value(library.contact, "permeability_xx"), r.levels[1].permeability_xx, 1e-9);
     CHECK_RELATIVE(value(library.contact, "hydraulic_gap_y"), r.levels[1].hydraulic_gap_y, 1e-9);
     CHECK(value(library.contact, "percolates_x") == 1);
+    CHECK_RELATIVE(value(library.contact, "shear_flow_yx"), r.levels[1].shear_yx, 1e-6);
+}
+
+// The mass flux of an ideal gas, -(K/eta) P dP/dx, is the same everywhere: with a pressure P(x) of
+// constant P dP/dx the gas leaves at P2 with K (P1^2 - P2^2)/(2 eta l P2).
+TEST(leak_of_a_gas) {
+    const auto leak = [](const char* gas) {
+        std::string text = kFlats;
+        text.insert(text.find("viscosity"), "gas = " + std::string(gas) + " ");
+        return realize(prepare(settings_of(text)), 1, 1).levels[0];
+    };
+    const Level liquid = leak(".false."), gas = leak(".true.");
+    // From the slope of P(x) at the outlet.
+    const double P1 = 0.3, P2 = 0.1, length = 2, step = 1e-4;
+    const auto pressure = [&](double x) {
+        return std::sqrt(P1 * P1 - (P1 * P1 - P2 * P2) * x / length);
+    };
+    const double outlet = gas.permeability_xx * (pressure(length - step) - P2) / step / 1e-9 * 50;
+    CHECK_RELATIVE(gas.leak_rate, outlet, 1e-3);
+    CHECK_RELATIVE(gas.leak_rate / liquid.leak_rate, 2, 1e-12);  // mean pressure over P2
 }
 
 // The distribution at the level nearest to 1 sigma of each of three surfaces, from the stored gaps

@@ -422,6 +422,10 @@ inline void levels(CheckedFile& f, const Truth& t) {
     f.attribute("component", "flag_values", {1, 2});
     const Vector length = t.rows([&](auto k, auto s) { return -2 * S[k * t.steps + s] / t.E; });
     f.same("conductance_length", length, kRounding);
+    if (f.has("pressure"))
+        f.same("conductance_per_area",
+               t.rows([&](auto k, auto s) { return length[k * t.steps + s] / (t.Lx * t.Ly); }),
+               kRounding);
     const double rho = t.c.solids.resistivity[0] + t.c.solids.resistivity[1];
     if (rho > 0)
         f.same("resistance", t.rows([&](auto k, auto s) {
