@@ -337,7 +337,8 @@ RSC_API int32_t rsc_surface_moments(const rsc_surface* surface, double* m0, doub
  *     a_case: the case (asperities%curvature defines the radius), null for the defaults.
  * With an asperities%law other than 'hertz', summits are located between grid points, and
  * curvatures and biharmonic are computed from wider stencils.
- * With solver%model = 'elements' in the case, the handle holds a copy of the whole surface and no
+ * With solver%model = 'elements' in the case, or 'auto' where this chooses elements (as for the
+ * defaults), the handle holds a copy of the whole surface and no
  * asperities; contacts created from it with such a case are solved by boundary elements. Their
  * spots are groups of edge-connected pixels; in place of an asperity index, rsc_contact_spots
  * returns the index (row*nx + column, from 0) of each spot's highest-pressure pixel.
@@ -351,7 +352,8 @@ RSC_API int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surfa
  * that rsc_surface_synthesize would create, or the list in surface%file. A synthetic surface is not
  * stored: this is faster, takes half the memory and allows any grid for every asperities%law. With
  * solver%model = 'elements': the points of the surface on the grid of elements%points_per_wave.
- * 'auto' means asperities here, and elements for heights from a file.
+ * 'auto' means what it means for the program: mostly elements. Ask for 'asperities' where summits
+ * are needed.
  *     asperities (out): the handle;
  *     a_case: the case, null for the defaults;
  *     realization: as in rsc_surface_synthesize; no effect on a list of asperities.

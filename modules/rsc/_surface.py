@@ -129,8 +129,9 @@ class Surface(_Object):
 
 
 class Asperities(_Object):
-    """Summits: positions, heights, radii and possibly curvatures. Created by find, make or take;
-    immutable. len(asperities) is their number."""
+    """What contacts are made on: summits (positions, heights, radii and possibly curvatures), or
+    for solver%model = 'elements' the points of a surface, which have none. Created by find, make or
+    take; immutable. len(asperities) is the number of summits."""
 
     __slots__ = ()
     _kind = "asperities"
@@ -140,15 +141,16 @@ class Asperities(_Object):
 
     @classmethod
     def find(cls, surface: Surface, case: Case | None = None) -> Asperities:
-        """The summits of a surface. surface: a Surface; case: asperities%curvature and
-        asperities%law select the method, None for the defaults. Raises ArgumentError for a surface
+        """A surface for contacts by the solver%model of the case ('auto' as in the program): its
+        points, or its summits as asperities%curvature and asperities%law say. surface: a Surface;
+        case: None for the defaults. Raises ArgumentError for a surface
         without summits or one too coarse for the law, Error (no memory)."""
         return cls._make("rsc_asperities_find", surface, case)
 
     @classmethod
     def make(cls, case: Case | None = None, realization: int = 1) -> Asperities:
-        """The asperities of Surface.synthesize(case, realization), found without storing the
-        surface. case: None for the defaults; realization: number of the surface. Raises
+        """The surface `realization` of a case for contacts by its solver%model: its points, or its
+        summits, found without storing the surface. case: None for the defaults; realization: number of the surface. Raises
         ArgumentError for keys that are refused, Error (no memory)."""
         return cls._make("rsc_asperities_make", case, realization)
 

@@ -65,7 +65,8 @@ rsc_contact::rsc_contact(std::shared_ptr<const SurfaceModel> on_, std::shared_pt
       first(indenter),
       owned(make_contact(*on, first, options)),
       path(*owned),
-      judge(options, JudgedSurface{on->points.get()}),
+      judge(options, JudgedSurface{on->points.get(), on->curvature, on->measured.get(),
+                                   on->domain.x0, on->domain.y0}),
       committed(path.state()) {}
 
 rsc_contact::rsc_contact(const rsc_contact& like, const Indenter& indenter)

@@ -9,14 +9,6 @@
 namespace rsc::api {
 namespace {
 
-// The choice of solver%model = 'auto' for synthetic surfaces depends on the levels. A caller asks
-// for these one by one, so that asperities remain what they are.
-Case with_model(Case settings) {
-    if (settings.solver.model == ModelKind::automatic && settings.surface.source != Source::heights)
-        settings.solver.model = ModelKind::asperities;
-    return settings;
-}
-
 constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
 
 void copy_to(double* output, const std::vector<double>& values) {
@@ -82,9 +74,10 @@ int32_t rsc_surface_copy(rsc_surface** surface, const rsc_surface* original) {
     return constructed(0, surface, "surface", [&] {
         require(original, 2, "original");
         const Surface& from = original->surface;
-        return new rsc_surface{{},
-                               {from.map.copy(), from.sigma, from.points_per_wave, from.theory,
-                                from.sampled, from.differences, from.name, from.measured}};
+        return new rsc_surface{
+            {},
+            {from.map.copy(), from.sigma, from.points_per_wave, from.theory, from.sampled,
+             from.differences, from.name, from.measured, from.irregular}};
     });
 }
 
@@ -158,8 +151,7 @@ int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surface* surf
     return constructed(2, asperities, "asperities", [&] {
         require(surface, 2, "surface");
         const Case& settings = settings_of(a_case);
-        return share(
-            make_surface_model(surface->surface, with_model(settings), threads_of(settings)));
+        return share(make_surface_model(surface->surface, settings, threads_of(settings)));
     });
 }
 
@@ -168,7 +160,7 @@ int32_t rsc_asperities_make(rsc_asperities** asperities, const rsc_case* a_case,
     return constructed(2, asperities, "asperities", [&] {
         const Case& settings = settings_of(a_case);
         require_valid(settings, {"surface", "run", "asperities%curvature", "asperities%law"});
-        return share(make_surface_model(with_model(settings), realization, threads_of(settings)));
+        return share(make_surface_model(settings, realization, threads_of(settings)));
     });
 }
 

@@ -77,6 +77,9 @@ struct LevelValues {
     // two flats, or over those of the gap if these are fewer), 2.5 over the radius of a round
     // contact in pixels; the errors of the grid depend on it
     double border_share = kNotComputed;
+    // likewise the root of the sum of the squares of the lengths of the straight parts of borders,
+    // in pixels, over these pixels
+    double border_runs = kNotComputed;
     // Expected relative errors of N and A, and under a prescribed force the error of Z0 [length]
     // (trust/judge.hpp).
     double force_error_expected = kNotComputed, area_error_expected = kNotComputed;

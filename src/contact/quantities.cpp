@@ -26,8 +26,6 @@ constexpr LevelQuantity kRows[] = {
      .force_power = 1,
      .meaning = "normal force, N",
      .comment = "N = sum of the forces f of the contacts",
-     .error_factor = 0.0133,
-     .error_averages = true,
      .error_member = &V::force_error_expected,
      .statistics = true,
      .plain = "force",
@@ -41,8 +39,6 @@ constexpr LevelQuantity kRows[] = {
      .comment = "law 'hertz': sum of pi a^2 over the contacts; 'elliptic' and 'fourth_order': area "
                 "of the union of their elliptic spots; boundary elements: area of the pixels under "
                 "pressure, corrected at borders below the hardness",
-     .error_factor = 0.13,
-     .error_averages = true,
      .error_member = &V::area_error_expected,
      .statistics = true,
      .plain = "contact area",
@@ -55,8 +51,6 @@ constexpr LevelQuantity kRows[] = {
      .meaning = "area of the pixels under pressure, without border correction",
      .comment = "boundary elements: contact_area is smaller by (pi - 1 + ln 2)/24 of a pixel for "
                 "each pixel side on the border; yielding borders: see src/elements/pixel_spots.hpp",
-     .error_factor = 0.16,
-     .error_averages = true,
      .always = false},
     {.name = "pressure",
      .member = &V::pressure,
@@ -73,8 +67,6 @@ constexpr LevelQuantity kRows[] = {
     {.name = "area_fraction",
      .member = &V::area_fraction,
      .meaning = "ratio of true to nominal contact area of two flats, A/A0",
-     .error_factor = 0.13,
-     .error_averages = true,
      .always = false,
      .shown = of_flats,
      .statistics = true,
@@ -164,7 +156,6 @@ constexpr LevelQuantity kRows[] = {
      .length_power = -2,
      .force_power = 1,
      .meaning = "largest pressure at a point (boundary elements)",
-     .error_factor = 0.067,
      .always = false,
      .statistics = true,
      .plain = "largest pressure"},
@@ -182,14 +173,23 @@ constexpr LevelQuantity kRows[] = {
      .comment =
          "boundary elements; of two flats over the pixels of the gap if these are fewer; 2.5 "
          "over the radius in pixels of a round contact. Expected "
-         "errors grow in proportion to it",
+         "errors grow with powers of it",
+     .always = false},
+    {.name = "border_runs",
+     .member = &V::border_runs,
+     .unit = "1",
+     .meaning =
+         "root of the sum of the squares of the lengths of the straight parts of the borders "
+         "of contacts, in pixels, over pixels in contact",
+     .comment = "boundary elements, as border_share: a straight part is known to half a pixel, and "
+                "the errors of different parts of the contact area cancel on average",
      .always = false},
     {.name = "force_error_expected",
      .member = &V::force_error_expected,
      .unit = "1",
      .meaning = "expected relative error of the force at the separation",
      .comment = "not exceeded in nine of ten cases. Asperities: difference from boundary elements "
-                "(calibrated: input/trust); elements: from the change of N on another grid and "
+                "(calibrated: input/trust); elements: from border_share and "
                 "from crests between the points; with adhesion from cohesive_resolution. Times "
                 "|force| it is the error of the force. Missing without contact, under a prescribed "
                 "force, and where nothing was calibrated (doubts)",
@@ -289,8 +289,6 @@ constexpr LevelQuantity kRows[] = {
      .comment =
          "boundary elements with adhesion: at fixed attracting points, as in small oscillations",
      .compute = compute_stiffness,
-     .error_factor = 0.044,
-     .error_averages = true,
      .always = false,
      .statistics = true,
      .plain = "stiffness"},
@@ -300,8 +298,6 @@ constexpr LevelQuantity kRows[] = {
      .force_power = 1,
      .meaning = "elastic energy of the contact, W",
      .comment = "dW/dZ0 = -N",
-     .error_factor = 0.0148,
-     .error_averages = true,
      .always = false,
      .statistics = true,
      .plain = "elastic energy"},
@@ -334,8 +330,6 @@ constexpr LevelQuantity kRows[] = {
                 "fixed contact areas",
      .comment = "electrical or thermal (Barber 2003); 4 a for a single spot",
      .compute = compute_conductance,
-     .error_factor = 0.044,
-     .error_averages = true,
      .always = false,
      .statistics = true,
      .plain = "conductance length"},
@@ -359,8 +353,6 @@ constexpr LevelQuantity kRows[] = {
          "sum of solids%resistivity [ohm times run%length_unit] over conductance_length; thermal "
          "resistivities [K/W times run%length_unit] make it K/W; absent without contact",
      .compute = compute_resistance,
-     .error_factor = 0.044,
-     .error_averages = true,
      .always = false,
      .statistics = true,
      .plain = "constriction resistance"},

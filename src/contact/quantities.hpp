@@ -51,13 +51,8 @@ struct LevelQuantity {
     const char* (*compute)(LevelSource&) = nullptr;
     // Whether each level of a run computes it; null: yes. If not, it is computed by name only.
     bool (*in_run)(const Case&) = nullptr;
-    // Boundary elements: its expected relative error is error_factor border_share, for a sum over
-    // all contacts (error_averages), whose errors partly cancel, divided by the fourth root of
-    // their number; 0: none is stated. The factors are those of input/trust/resolution.py, rounded
-    // up. Of 91 levels of bodies that were not fitted, 81 to 100 % were within, by quantity.
-    double error_factor = 0;
-    bool error_averages = false;
-    // Instead of this, the expected relative error of a component, from other values of the level.
+    // Boundary elements: the expected relative error of a component, from other values of the level.
+    // Null: by the resolution of the contacts, if trust/grid_error_table.hpp has this quantity.
     double (*own_error)(const LevelValues&, std::size_t component) = nullptr;
     // The quantity that is its expected error, if that has a row and a meaning of its own.
     double LevelValues::*error_member = nullptr;

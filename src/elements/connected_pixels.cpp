@@ -46,7 +46,48 @@ void for_neighbours(const std::vector<Pixel>& pixels, int period_x, int period_y
     }
 }
 
+// Adds the straight parts of the borders across the rows of pixels that are sorted by row.
+double squares_across_rows(const std::vector<Pixel>& pixels, int period) {
+    struct Side {
+        int line, right, row;
+        auto operator<=>(const Side&) const = default;
+    };
+    std::vector<Side> sides;
+    const auto n = pixels.size();
+    for (std::size_t k = 0; k < n;) {
+        const int row = pixels[k].y;
+        const std::size_t of_row = sides.size();
+        for (; k < n && pixels[k].y == row; ++k) {
+            const int x = pixels[k].x;
+            if (k == 0 || pixels[k - 1] != Pixel{x - 1, row}) sides.push_back({x, 0, row});
+            if (k + 1 == n || pixels[k + 1] != Pixel{x + 1, row}) sides.push_back({x + 1, 1, row});
+        }
+        if (period > 0 && sides[of_row].line == 0 && sides.back().line == period) {
+            sides.pop_back();
+            sides.erase(sides.begin() + std::ptrdiff_t(of_row));
+        }
+    }
+    std::ranges::sort(sides);
+    double sum = 0;
+    for (std::size_t k = 0; k < sides.size();) {
+        std::size_t end = k + 1;
+        while (end < sides.size() &&
+               sides[end] == Side{sides[k].line, sides[k].right, sides[k].row + int(end - k)})
+            ++end;
+        sum += double(end - k) * double(end - k);
+        k = end;
+    }
+    return sum;
+}
+
 }  // namespace
+
+double squares_of_straight_parts(std::vector<Pixel> pixels, int period_x, int period_y) {
+    const double across = squares_across_rows(pixels, period_x);
+    for (Pixel& p : pixels) std::swap(p.x, p.y);
+    std::ranges::sort(pixels, {}, [](const Pixel& p) { return std::pair(p.y, p.x); });
+    return across + squares_across_rows(pixels, period_y);
+}
 
 std::vector<int> open_sides(const std::vector<Pixel>& pixels, int period_x, int period_y) {
     std::vector<int> open(pixels.size());

@@ -128,7 +128,11 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
                      pressed = double(touching.size()), all = double(map.nx) * map.ny;
         // Near full contact it is the gaps that have few pixels.
         const double pixels = indenter.period.finite() ? std::min(pressed, all - pressed) : pressed;
-        if (pixels > 0) level.border_share = border / pixels;
+        if (pixels > 0) {
+            level.border_share = border / pixels;
+            level.border_runs =
+                std::sqrt(squares_of_straight_parts(touching, period_x, period_y)) / pixels;
+        }
         level.pressure_max = *std::max_element(pressure.begin(), pressure.end());
     }
     const auto inside = [](double column, int n) {

@@ -101,6 +101,8 @@ struct WindowPressures {
 };
 
 // What the recorder of a realization works on.
+struct GridBodies;  // grid_bodies.hpp
+
 struct RecordedBodies {
     const Case& settings;
     const Indenter& indenter;
@@ -150,7 +152,7 @@ struct Physics {
     // Boundary elements: sets the errors among the curves of a level, from its share of border
     // pixels; `step` is a side of a pixel [length]. Called by trust/.
     void (*curve_errors)(std::span<double> curves, std::span<const double> axis, double step,
-                         const Case&, const LevelValues&, double border_share) = nullptr;
+                         const Case&, const LevelValues&, const GridBodies&) = nullptr;
     bool lowers = false;    // points of the surface, for good
     bool reshapes = false;  // the surface after each level is a result
     bool pulls = false;     // forces may be negative

@@ -474,11 +474,9 @@ Prepared prepared_surface(const Job& job, std::int64_t number, int threads, Real
     s.measured = job.given ? job.measured : nullptr;
     s.solver = job.solver;
     (by_elements(job.settings) ? prepare_elements : prepare_asperities)(job, number, threads, r, s);
-    const Measured* const measured = s.measured.get();
-    s.judged.filled = filled_points(measured, job.domain.x0, job.domain.y0, job.indenter);
-    if (measured)
-        s.judged.scattered = double(measured->missing - std::ranges::count(measured->filled, 1)) /
-                             double(measured->points());
+    s.judged.measured = s.measured.get();
+    s.judged.x0 = job.domain.x0;
+    s.judged.y0 = job.domain.y0;
     return s;
 }
 
@@ -538,7 +536,9 @@ Realization realize(const Job& job, std::int64_t number, int threads,
         if (map)
             state_curve_errors(std::span(r.curves).last(each), job.observe.curves,
                                std::max(map->dx, map->dy), settings, level,
-                               job.solver.surface.measured);
+                               grid_bodies(job.spectrum ? job.indenter.shape->keys().map != nullptr
+                                                        : job.solver.surface.measured,
+                                           job.indenter));
         if (on_level) on_level(k, level);
     };
     if (grouped)

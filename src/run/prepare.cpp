@@ -10,6 +10,7 @@
 #include "physics/physics.hpp"
 #include "surface/defects.hpp"
 #include "surface/detection.hpp"
+#include "trust/judge.hpp"
 
 namespace rsc {
 namespace {
@@ -184,6 +185,7 @@ Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_
     surface.sigma = spectrum.sigma;
     surface.points_per_wave = keys.n / shortest_wave(spectrum);
     surface.theory = theoretical_moments(spectrum);
+    surface.irregular = spectrum.directional() || !spectrum.gaussian();
     const RowSource source(spectrum, keys.n, keys.normalise, settings.run.seed, number, threads);
     surface.sampled = source.sampled();
     surface.differences = source.differences();
@@ -376,7 +378,7 @@ SurfaceModel make_bare_model(const Surface& surface) {
     SurfaceModel model;
     model.measured = surface.measured;
     model.domain = {{map.x0, map.y0, map.Lx(), map.Ly()}, {}};
-    model.domain.measured = !surface.theory;
+    model.domain.measured = surface.irregular;
     if (!surface.theory) {
         model.domain.half_step_x = 0.5 * map.dx;
         model.domain.half_step_y = 0.5 * map.dy;
@@ -386,7 +388,10 @@ SurfaceModel make_bare_model(const Surface& surface) {
     model.domain.points_per_wave =
         model.measured ? model.measured->points_per_wave() : surface.points_per_wave;
     model.domain.grid_step = std::max(map.dx, map.dy);
-    if (surface.theory) model.domain.mean_spacing = surface.theory->mean_spacing();
+    if (surface.theory) {
+        model.domain.mean_spacing = surface.theory->mean_spacing();
+        model.curvature = curvature_at_unit_height(*surface.theory);
+    }
     auto& s = model.statistics;
     const Moments grid = surface.differences ? *surface.differences
                          : surface.measured  ? surface.measured->moments
@@ -424,6 +429,8 @@ SurfaceModel make_surface_model(const Case& settings, std::int64_t number, int t
     if (by_elements(settings)) {
         Surface surface = make_element_surface(settings, number, threads);
         SurfaceModel model = make_bare_model(surface);
+        if (has_spectrum(settings))
+            model.domain = synthetic_domain(spectrum_of(settings), settings.surface.n);
         model.points = std::make_shared<HeightMap>(std::move(surface.map));
         return model;
     }

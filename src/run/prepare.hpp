@@ -33,6 +33,7 @@ struct Surface {
     std::optional<Moments> differences;        // and by finite differences of its heights
     std::string name = "the surface";          // for messages
     std::shared_ptr<const Measured> measured;  // preparation of a measured map; null for others
+    bool irregular = true;                     // SurfaceFacts::measured
 };
 
 // Realization `number` of the surface. A measured surface is the same for every number, unless
@@ -88,6 +89,7 @@ struct SurfaceModel {
     // the asperities were given as arrays; surface%L may replace the derived domain
     bool list = false;
     std::shared_ptr<const Measured> measured;  // of a measured map
+    std::optional<Tensor> curvature;           // JudgedSurface::curvature
 };
 
 // The border points and spikes of a map that is not periodic.

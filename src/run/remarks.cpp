@@ -74,10 +74,90 @@ struct Remarks {
         out << '\n';
     }
 
-    std::string remedy_of_grid() const {
-        return job.spectrum
-                   ? format("; use elements%%points_per_wave = %g", 2 * c.elements.points_per_wave)
-                   : "; the map has too few points for its contacts";
+    static double error_of_force(const LevelValues& l) {
+        return l.force_error_expected >= 0
+                   ? l.force_error_expected
+                   : l.separation_error_expected * std::abs(l.stiffness) / std::abs(l.force);
+    }
+
+    // The largest value of the levels with a doubt; 0: none is known.
+    template <class Value>
+    double largest(Cause cause, Value&& value) const {
+        double most = 0;
+        for (const LevelValues& l : levels)
+            if (l.doubts & bit(cause)) most = std::fmax(most, value(l));
+        return most;
+    }
+
+    // The quantity from which a doubt follows, and its worst value over the levels.
+    std::string figure_of(Cause cause) const {
+        const auto up_to = [&](const char* what, auto value, bool share = true) {
+            const double most = largest(cause, value);
+            const std::string figure = share ? percent(most) : format("%.3g", most);
+            return most > 0 ? std::string(" (") + what + " up to " + figure + ")" : "";
+        };
+        const auto area = [](const LevelValues& l) { return l.area_error_expected; };
+        switch (cause) {
+            case Cause::grid:
+                return up_to("error of N", error_of_force) + up_to("error of A", area);
+            case Cause::model_error: return up_to("error of N", error_of_force);
+            case Cause::filled_points:
+                return up_to("filled_share", [](auto& l) { return l.filled_share; });
+            case Cause::sliding_steps:
+                return up_to("sliding_error", [](auto& l) { return l.sliding_error; });
+            case Cause::layer:
+                return up_to("wide_contacts", [](auto& l) { return l.wide_contacts; });
+            case Cause::slope_ratio:
+                return up_to(
+                    "slope_ratio", [](auto& l) { return l.slope_ratio; }, false);
+            case Cause::steep_indenter:
+                return up_to(
+                    "indenter_slope", [](auto& l) { return l.indenter_slope; }, false);
+            case Cause::border:
+                return up_to(
+                    "edge_contacts", [](auto& l) { return l.edge_contacts; }, false);
+            case Cause::adhesion_range:
+                return format(
+                    " (cohesive_resolution down to %.3g)",
+                    4 / largest(cause, [](auto& l) { return 4 / l.cohesive_resolution; }));
+            default: return "";
+        }
+    }
+
+    // How many times as many points remove the doubt: errors fall at least in proportion to the
+    // side of a pixel.
+    std::string finer_by(double times, const char* otherwise) const {
+        if (!job.spectrum) return otherwise;
+        const double points = std::ceil(1.05 * times * c.elements.points_per_wave);
+        Case finer = c;
+        finer.elements.points_per_wave = points;
+        return format("; use elements%%points_per_wave = %g", points) +
+               (too_large_for_elements(finer, *job.spectrum).empty()
+                    ? ""
+                    : ", which is more than this machine can hold: press harder, or accept the "
+                      "stated error");
+    }
+
+    std::string remedy_of_elements(Cause cause) const {
+        switch (cause) {
+            case Cause::grid:
+                return finer_by(
+                    largest(cause,
+                            [](const LevelValues& l) {
+                                return std::max({1.0, error_of_force(l) / kUnresolved,
+                                                 l.area_error_expected / kMuchAreaError});
+                            }),
+                    "; only a map with smaller steps, or a harder pressed contact, removes this");
+            case Cause::missed_contact:
+                return finer_by(2,
+                                "; a map with smaller steps, or a smaller separation, removes it");
+            case Cause::adhesion_range:
+                return finer_by(largest(cause, [](auto& l) { return 4 / l.cohesive_resolution; }),
+                                "; only a map with smaller steps removes this") +
+                       " or a larger adhesion_range";
+            case Cause::sliding_steps: return "; give closer distances";
+            default: return "";
+        }
     }
 
     // Advice where the surface is known beyond a list of asperities, so that elements can solve it.
@@ -90,18 +170,21 @@ struct Remarks {
     }
 
     std::string remedy_of(Cause cause) const {
-        if (cause == Cause::filled_points) return "";
-        if (cause == Cause::border) return job.spectrum ? "; enlarge surface%L" : "";
-        if (elements)
-            return cause == Cause::grid || cause == Cause::missed_contact ? remedy_of_grid() : "";
-        return to_elements();
+        if (cause == Cause::filled_points)
+            return "; only a map without holes there, or another centre, removes this";
+        if (cause == Cause::border)
+            return job.spectrum ? "; enlarge surface%L"
+                                : "; only a larger map, or a lighter load, removes this";
+        if (cause == Cause::steep_indenter) return "";
+        return elements ? remedy_of_elements(cause) : to_elements();
     }
 
     void print_doubts() const {
         for (const auto k : indices(kCauseNames)) {
             const Cause cause{int(k)};
             say([&](const LevelValues& l) { return (l.doubts & bit(cause)) != 0; },
-                words_of_doubts(bit(cause)) + " - " + sentence(cause, elements) + remedy_of(cause));
+                words_of_doubts(bit(cause)) + " - " + sentence(cause, elements) + figure_of(cause) +
+                    remedy_of(cause));
         }
         if (std::ranges::any_of(levels, [](const LevelValues& l) { return l.force != 0; })) return;
         out << "  no level reaches contact: ";

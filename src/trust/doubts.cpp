@@ -11,23 +11,21 @@ std::string sentence(Cause cause, bool elements) {
     constexpr std::array sentences = {
         "contacts closer to the border of the surface than the mean spacing of its summits: the "
         "surface ends there",
-        "the contact may lie on missing points of the map, which are filled smoothly "
-        "(filled_share): N is too small",
-        "the contacts have too few pixels: a finer grid may change N at this separation by more "
-        "than "
-        "3 % (with adhesion 10 %), or A by more than 10 %",
+        "the contact may lie on missing points of the map, which are filled smoothly: N is too "
+        "small",
+        "the contacts have too few pixels: the error of N is above 3 % (with adhesion 10 %), or "
+        "that of A above 10 %",
         "the indenter is steep compared with the surface (slope_ratio above 0.2), so that it "
         "touches flanks, not summits",
         "spots are larger than those for which the contact law and its expected error hold",
         "the summits have too few points, or are spikes one point wide",
         "spots with a radius above a fifth of the thickness of the top layer",
-        "the attraction at edges of contact acts across less than four pixels "
-        "(cohesive_resolution): the error of N may be large; use more points or a larger "
-        "adhesion_range",
+        "the attraction at edges of contact acts across less than four pixels: the error of N may "
+        "be large",
         "such surfaces or bodies were not compared with elements, so that no error is stated",
         "N = 0 is uncertain: the bodies may touch between the points of the grid",
         "N may differ from that of elements at this separation by more than 10 %",
-        "the steps of sliding may change N by more than 1 %: give closer distances",
+        "the steps of sliding may change N, or Z0 under a force, by more than 1 %",
         "body 2 is steep where it touches (rms slope above 0.5): both models assume small slopes, "
         "and nothing that rsc computes says how far N is off"};
     static_assert(sentences.size() == kCauseNames.size());

@@ -2,13 +2,10 @@
 
 #include "base/parallel.hpp"
 #include "surface/summits.hpp"
+#include "trust/grid_error_table.hpp"
 
 namespace rsc {
 namespace {
-
-// Heights from a file may have waves as short as their grid; the error is that of a measurement
-// twice as fine (kinds map and mapflat of input/trust/resolution.py).
-constexpr double kRead = 1.5;
 
 // Elements, sharp punches on a plane: N differs from 2 a E* d by up to this share of the ratio of
 // pixel side to radius, in nine of ten cases (input/trust/resolution.py, kind edge).
@@ -20,12 +17,11 @@ constexpr double kEdgeShare = 0.17;
 // q). That of A is 0.8 sqrt(q): the width of a contact in points is proportional to 1/sqrt(q).
 constexpr double kCrest = 0.35, kCrestArea = 0.8;
 
-constexpr int kRows = 16;  // that a thread takes at a time
+// Straight parts of borders are shorter than this number of pixels, on average, in all rough
+// contacts of the study (input/trust/resolution.py), whose errors do not need the crests.
+constexpr double kStraight = 16;
 
-double edge_share(const Indenter& indenter, double side) {
-    const double edge = indenter.shape->edge(side);
-    return edge > 0 ? kEdgeShare * side / edge : 0;
-}
+constexpr int kRows = 16;  // that a thread takes at a time
 
 // The clearance of the points of a row, z - s.
 void clearances(const HeightMap& map, const Indenter& indenter, int row,
@@ -68,35 +64,47 @@ double crest_height(const HeightMap& map, const Indenter& indenter,
 
 }  // namespace
 
+GridBodies grid_bodies(bool measured, const Indenter& indenter) {
+    return {measured, indenter.shape->edge(kInfinity) >= 0};
+}
+
 double error_of_resolution(const LevelQuantity& quantity, std::size_t component,
-                           const LevelValues& level, bool read) {
+                           const LevelValues& level, const GridBodies& bodies) {
     if (quantity.own_error) return quantity.own_error(level, component);
-    if (!(quantity.error_factor > 0) || !(level.contacts > 0)) return kNotComputed;
-    const double averaged = quantity.error_averages ? std::pow(level.contacts, -0.25) : 1.0;
-    return quantity.error_factor * level.border_share * averaged * (read ? kRead : 1.0);
+    const std::string_view name = quantity.name;
+    const auto found = std::ranges::find(kResolutionErrors, name, &ResolutionError::quantity);
+    if (found == std::end(kResolutionErrors) || !(level.contacts > 0)) return kNotComputed;
+    const double by_share = found->factor * std::pow(level.border_share, found->power) *
+                            std::pow(level.contacts, -found->averaging);
+    return std::hypot(by_share, found->of_runs * level.border_runs) *
+           found->factors.of(level, bodies);
 }
 
 void state_curve_errors(std::span<double> curves, std::span<const AskedCurves> asked, double step,
-                        const Case& settings, const LevelValues& level, bool read) {
+                        const Case& settings, const LevelValues& level, const GridBodies& bodies) {
     for (const AskedCurves& a : asked) {
         if (a.physics->curve_errors)
             a.physics->curve_errors(curves.first(a.values()), a.axis.values, step, settings, level,
-                                    level.border_share * (read ? kRead : 1.0));
+                                    bodies);
         curves = curves.subspan(a.values());
     }
 }
 
-GridError error_of_grid(const LevelValues& level, const Indenter& indenter, double side,
-                        bool read) {
+GridError error_of_grid(const LevelValues& level, const GridBodies& bodies, double edge,
+                        double side) {
     const auto of = [&](const char* name) {
-        return error_of_resolution(*find_quantity(name)->quantity, 0, level, read);
+        return error_of_resolution(*find_quantity(name)->quantity, 0, level, bodies);
     };
-    const double edge = edge_share(indenter, side);
-    return {of("force") + edge, of("contact_area") + edge};
+    const double share = edge > 0 ? kEdgeShare * side / edge : 0;
+    return {of("force") + share, of("contact_area") + share};
 }
 
 GridError error_of_crests(const Level& level, double stiffness, const HeightMap& map,
                           const Indenter& indenter, const std::optional<Tensor>& curvature) {
+    // Mean length of the straight parts of borders, in pixels, weighted by their lengths.
+    const double straight = level.border_runs * level.border_runs *
+                            double(level.pixels.index.size()) / level.border_share;
+    if (!(straight > kStraight)) return {};
     double mean = 0;
     for (const auto c : indices(level.f))
         mean += level.f[c] / level.force *

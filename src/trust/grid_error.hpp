@@ -8,10 +8,14 @@
 #pragma once
 
 #include "contact/quantities.hpp"
+#include "physics/grid_bodies.hpp"
 #include "physics/physics.hpp"
 #include "surface/surface.hpp"
 
 namespace rsc {
+
+// The class of the errors of elements.
+GridBodies grid_bodies(bool measured, const Indenter& indenter);
 
 // Expected relative errors of N and A at a separation.
 struct GridError {
@@ -24,22 +28,23 @@ struct PlaceOfTip {
 };
 
 // Expected relative error of a quantity from the resolution of the contacts; NaN where none was
-// calibrated, or there is no contact. `read`: the heights were measured, and may have waves as
-// short as their grid.
+// calibrated, or there is no contact.
 double error_of_resolution(const LevelQuantity& quantity, std::size_t component,
-                           const LevelValues& level, bool read);
+                           const LevelValues& level, const GridBodies& bodies);
 
 // States the errors of the curves of a level of boundary elements, `step` being the side of a pixel
 // [length].
 void state_curve_errors(std::span<double> curves, std::span<const AskedCurves> asked, double step,
-                        const Case& settings, const LevelValues& level, bool read);
+                        const Case& settings, const LevelValues& level, const GridBodies& bodies);
 
-// Expected relative errors of N and A, and of N for a punch whose edge lies between points `side`
-// apart [length].
-GridError error_of_grid(const LevelValues& level, const Indenter& indenter, double side, bool read);
+// Expected relative errors of N and A. `edge`: radius of a punch whose edge is sharp and lies
+// between points `side` apart [length]; not positive: there is none.
+GridError error_of_grid(const LevelValues& level, const GridBodies& bodies, double edge,
+                        double side);
 
-// Lower bounds of the errors of contacts on ridges, whose crests lie between the points: a contact
-// one or two points wide and many long has the error of one of few pixels. `stiffness` is dN/dZ0.
+// Lower bounds of the errors of contacts on straight ridges, whose crests lie between the points: a
+// contact one or two points wide and many long has the error of one of few pixels. 0 without long
+// straight borders. `stiffness` is dN/dZ0.
 // `curvature`: of synthetic surfaces, of which not all heights need be kept, the mean of the second
 // derivatives at points of unit height.
 GridError error_of_crests(const Level& level, double stiffness, const HeightMap& map,

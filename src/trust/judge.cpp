@@ -8,8 +8,8 @@
 namespace rsc {
 namespace {
 
-// Larger expected errors are a doubt: of N of asperities or with adhesion, and of A of elements.
-constexpr double kMuchError = 0.1, kMuchAreaError = 0.1;
+// Larger expected errors of N of asperities, or with adhesion, are a doubt.
+constexpr double kMuchError = 0.1;
 
 // A larger error of N by the steps of sliding is a doubt.
 constexpr double kLongSteps = 0.01;
@@ -79,8 +79,15 @@ std::vector<Doubt> of_list(const Level& level, const Path& contact) {
     return doubts;
 }
 
-Doubt edges_of_adhesion(const Level& level, const Indenter& indenter, const HeightMap& map,
-                        bool read, const SolverOptions& options) {
+// Share of the points of a map that were filled from their neighbours.
+double scattered_share(const Measured* measured) {
+    return measured ? double(measured->missing - std::ranges::count(measured->filled, 1)) /
+                          double(measured->points())
+                    : 0.0;
+}
+
+Doubt edges_of_adhesion(const Level& level, const HeightMap& map, const GridError& few,
+                        const SolverOptions& options) {
     Doubt doubt{Cause::grid};
     if (level.force == 0) return doubt;
     const double traction =
@@ -91,7 +98,6 @@ Doubt edges_of_adhesion(const Level& level, const Indenter& indenter, const Heig
     double dN = kEdgeError * traction * std::max(map.dx, map.dy) * 2 *
                 std::sqrt(std::numbers::pi * attracting);
     if (level.contacts > 0) {
-        const GridError few = error_of_grid(level, indenter, std::max(map.dx, map.dy), read);
         dN += few.force * std::max(level.force + pulled, 0.0);
         doubt.area =
             few.area +
@@ -106,14 +112,14 @@ Doubt edges_of_adhesion(const Level& level, const Indenter& indenter, const Heig
 
 // The errors of the quantities of elements: by the resolution, by the steps of sliding, and the
 // error of N that other causes have.
-void state_errors(Level& level, std::span<const Doubt> doubts, bool read) {
+void state_errors(Level& level, std::span<const Doubt> doubts, const GridBodies& bodies) {
     level.errors.fill(kNotComputed);
     double others = level.converged ? 0.0 : kNotComputed;
     for (const Doubt& doubt : doubts)
         if (doubt.cause != Cause::grid) others += doubt.force;
     for (const LevelQuantity& quantity : level_quantities())
         for (const auto c : indices(quantity.components())) {
-            double error = error_of_resolution(quantity, c, level, read) + others;
+            double error = error_of_resolution(quantity, c, level, bodies) + others;
             if (level.with_half_the_steps)
                 error += std::abs(1 - quantity.of(*level.with_half_the_steps, c) /
                                           quantity.of(level, c));
@@ -139,13 +145,14 @@ void Judge::judge(Level& level, Path& contact, bool by_force) {
         elements ? of_elements(level, contact, by_force) : of_asperities(level, contact);
     if (level.indenter_slope > kSmallSlope) doubts.push_back({Cause::steep_indenter});
     if (level.edge_contacts > 0) doubts.push_back({Cause::border});
-    if (!surface_.filled.empty()) {
-        level.filled_share =
-            share_on_filled(level, surface_.filled, indenter, options_.surface.sigma);
+    const std::vector<FilledPoints> filled =
+        filled_points(surface_.measured, surface_.x0, surface_.y0, indenter);
+    if (!filled.empty()) {
+        level.filled_share = share_on_filled(level, filled, indenter, options_.surface.sigma);
         if (level.filled_share > kMuchFilled) doubts.push_back({Cause::filled_points});
     }
     conclude(level, doubts, by_force);
-    if (elements) state_errors(level, doubts, options_.surface.measured);
+    if (elements) state_errors(level, doubts, bodies(indenter));
 }
 
 std::vector<Doubt> Judge::of_asperities(Level& level, const Path& contact) const {
@@ -194,8 +201,8 @@ std::vector<Doubt> Judge::of_elements(const Level& level, Path& contact, bool by
         doubts.push_back({Cause::sliding_steps, by_force ? 0.0 : error, area_error,
                           error > kLongSteps, by_force ? error * depth : 0.0});
     }
-    if (surface_.scattered > 0) {
-        const double share = kScattered * surface_.scattered;
+    if (const double scattered = scattered_share(surface_.measured); scattered > 0) {
+        const double share = kScattered * scattered;
         doubts.push_back({Cause::filled_points, share, share, share > kLongSteps});
     }
     return doubts;
@@ -219,19 +226,25 @@ double Judge::touch_between(const Path& contact) {
                                   (std::abs(c.xx) * dx * dx + std::abs(c.yy) * dy * dy);
 }
 
+GridBodies Judge::bodies(const Indenter& indenter) const {
+    const bool map = indenter.shape->keys().map != nullptr;
+    return grid_bodies((options_.surface.measured && !surface_.curvature) || map, indenter);
+}
+
 // The error by the grid, with adhesion by the resolution of the edges, too.
 Doubt Judge::grid(const Level& level, Path& contact) const {
     const Indenter& indenter = contact.indenter();
     const HeightMap& map = *surface_.map;
-    const bool read = options_.surface.measured;
+    const double side = std::max(map.dx, map.dy);
+    const GridError by_size =
+        error_of_grid(level, bodies(indenter), indenter.shape->edge(side), side);
     if (options_.physics.of<Adhesion>().work > 0)
-        return edges_of_adhesion(level, indenter, map, read, options_);
+        return edges_of_adhesion(level, map, by_size, options_);
     Doubt doubt{Cause::grid};
     const double stiffness = std::isnan(level.stiffness) ? contact.stiffness() : level.stiffness;
-    const GridError by_size = error_of_grid(level, indenter, std::max(map.dx, map.dy), read),
-                    crests = error_of_crests(level, stiffness, map, indenter, surface_.curvature);
+    const GridError crests = error_of_crests(level, stiffness, map, indenter, surface_.curvature);
     doubt.force = std::max(by_size.force, crests.force);
-    // The borders of straight ridges are known to half a pixel, alike along their length.
+    // The borders of straight ridges are known to half a pixel, often alike on many of them.
     doubt.area =
         crests.area > by_size.area ? crests.area + 0.25 * level.border_share : by_size.area;
     doubt.serious = doubt.force > kUnresolved || doubt.area > kMuchAreaError;

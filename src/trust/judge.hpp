@@ -10,9 +10,9 @@
 
 namespace rsc {
 
-// A larger expected error of N of elements is a doubt. Under a prescribed force it is an error of
-// the separation.
-inline constexpr double kUnresolved = 0.03;
+// Larger expected errors of N and A of elements are a doubt. Under a prescribed force that of N is
+// an error of the separation.
+inline constexpr double kUnresolved = 0.03, kMuchAreaError = 0.1;
 
 // Mean curvature of a synthetic surface at points of unit height [1/length^2].
 Tensor curvature_at_unit_height(const Moments& moments);
@@ -22,8 +22,8 @@ struct JudgedSurface {
     const HeightMap* map = nullptr;  // of elements; must outlive the judge
     // Elements on a synthetic surface: curvature_at_unit_height().
     std::optional<Tensor> curvature = {};
-    std::vector<FilledPoints> filled = {};  // of the maps of both bodies
-    double scattered = 0;  // share of the points of a map that were filled from their neighbours
+    const Measured* measured = nullptr;  // of a measured map; must outlive the judge
+    double x0 = 0, y0 = 0;               // its first point [length]
 };
 
 class Judge {
@@ -39,6 +39,7 @@ private:
     std::vector<Doubt> of_elements(const Level& level, Path& contact, bool by_force);
     double touch_between(const Path& contact);
     Doubt grid(const Level& level, Path& contact) const;
+    GridBodies bodies(const Indenter& indenter) const;  // of elements
 
     SolverOptions options_;
     JudgedSurface surface_;

@@ -128,7 +128,7 @@ TEST(many_contacts) {
 TEST(steps_of_many) {
     const Made made(
         "&surface n=64 L_lambda_l=4 L_lambda_s=16 / &solids R=Infinity,Infinity / "
-        "&indentation boundary='periodic' /");
+        "&solver model='asperities' / &indentation boundary='periodic' /");
     for (const double Z0 : {0.01, -0.05}) {
         const ContactHandle alone = contact_on(made.asperities, made.c);
         double N = 0, separation = 7, force = 7, slope = 7;

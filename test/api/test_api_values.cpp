@@ -44,7 +44,7 @@ std::int64_t candidates_at(const rsc_surface* surface, const rsc_case* a_case, d
     AsperitiesHandle on;
     ContactHandle contact;
     std::int64_t candidates = -1;
-    OK(rsc_asperities_find(&on, surface, nullptr));
+    OK(rsc_asperities_find(&on, surface, a_case));
     OK(rsc_contact_create(&contact, on, 1e3, 1.0, 0.501, 0.625, a_case));
     OK(rsc_contact_indent(contact, separation, nullptr));
     OK(rsc_contact_level(contact, nullptr, &candidates, nullptr, nullptr, nullptr));

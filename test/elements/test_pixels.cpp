@@ -1,6 +1,7 @@
 // Pressures on pixels: Love's kernel against integration and its own far expansion, products by the
 // tree against direct sums.
 #include "check.hpp"
+#include "elements/connected_pixels.hpp"
 #include "elements/elements.hpp"
 #include "elements/pixel_products.hpp"
 #include "interaction/pixel_kernels.hpp"
@@ -34,6 +35,22 @@ std::array<double, 2> of_unit_pressure(PixelProducts& products, Pixel other) {
     products.set_pixels({{0, 0}, other});
     products.apply(p.data(), w.data(), PixelProducts::Accuracy::full);
     return w;
+}
+
+// The straight parts of the border of 5 x 3 pixels with one more above the corner, and of a strip
+// that goes around a period.
+TEST(straight_parts) {
+    std::vector<Pixel> block;
+    for (const int y : indices(3))
+        for (const int x : indices(5)) block.push_back({x + 2, y});
+    CHECK(squares_of_straight_parts(block, 0, 0) == 2 * 25 + 2 * 9);
+    block.push_back({2, 3});
+    CHECK(squares_of_straight_parts(block, 0, 0) == 25 + 16 + 1 + 16 + 9 + 1);
+    std::vector<Pixel> strip;
+    for (const int y : {4, 5})
+        for (const int x : indices(8)) strip.push_back({x, y});
+    CHECK(squares_of_straight_parts(strip, 8, 0) == 2 * 64);
+    CHECK(squares_of_straight_parts(strip, 0, 0) == 2 * 64 + 2 * 4);
 }
 
 TEST(kernel) {

@@ -86,7 +86,6 @@ std::vector<LevelQuantity> flow_quantities() {
          .comment = "boundary elements, over the whole cell; 0 where the bodies touch",
          .compute = compute_gap,
          .in_run = has_gap,
-         .error_factor = 0.0014,
          .always = false,
          .shown = flow_asked,
          .statistics = true,

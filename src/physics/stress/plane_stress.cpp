@@ -313,9 +313,16 @@ GridWindow stressed_window(const PointGrid& grid, const LevelPixels& pixels, con
                            double depth) {
     const GridWindow contact = loaded(pixels);
     if (contact.columns == 0) return {};
+    std::vector<double> areas;  // of the contacts, in pixels
+    for (const std::int32_t c : pixels.contact) {
+        if (at(c) >= areas.size()) areas.resize(at(c) + 1, 0.0);
+        areas[at(c)] += 1;
+    }
+    const double largest = areas.empty() ? 0.0 : std::ranges::max(areas) * grid.dx * grid.dy,
+                 beyond = std::max(2 * depth, std::sqrt(largest / std::numbers::pi));
     const auto widened = [&](int first, int count, double step, int n, double repeats, int& begin,
                              int& size) {
-        const int margin = std::max(4, int(std::ceil(std::min(2 * depth / step, 1.0 * n))));
+        const int margin = std::max(4, int(std::ceil(std::min(beyond / step, 1.0 * n))));
         begin = std::isfinite(repeats) ? 0 : std::max(0, first - margin);
         size = (std::isfinite(repeats) ? n : std::min(n, first + count + margin)) - begin;
     };

@@ -36,8 +36,9 @@ LargestStress stress_below(const PointGrid& grid, const LevelPixels& pixels,
                            StressPlane* plane = nullptr);
 
 // The points at and around the contact where the largest stresses at this depth are sought: those
-// within 2 depths of a pixel under pressure along either axis, and the nearest 4 at least; all
-// along an axis of the period. Empty if there is no contact.
+// within 2 depths, or the radius of the largest contact, of a pixel under pressure along either
+// axis, and the nearest 4 at least: the tension at small depths is largest within twice the radius.
+// All along an axis of the period. Empty if there is no contact.
 GridWindow stressed_window(const PointGrid& grid, const LevelPixels& pixels, const Period& period,
                            double depth);
 

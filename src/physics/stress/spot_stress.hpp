@@ -1,18 +1,23 @@
-// Stresses below the contacts of the asperity model.
+// Stresses below the contacts of the asperity model: their Hertz pressures, put on a grid.
 #pragma once
 
-#include "contact/level.hpp"
-#include "physics/stress/stress.hpp"
+#include "contact/indentation.hpp"
+#include "physics/stress/plane_stress.hpp"
 
 namespace rsc {
 
-// Stress at the distance r from the axis and the depth z under a Hertz pressure of the force f over
-// the circle of radius a (Huber 1904; Johnson 1985, section 3.4): xx radial, yy around the axis.
-StressTensor hertz_stress(double r, double z, double f, double a, double nu);
+// The pressures of the spots of a level on a grid, each that of Hertz over a circle of its area,
+// integrated over the pixels.
+struct SpotPressures {
+    PointGrid grid;
+    LevelPixels pixels;
+};
 
-// Largest stresses at `depth` [length] under the contacts of a level, each loaded by a Hertz
-// pressure over a circle of its area, sought under the centre of each contact and on two rings
-// around it, at half its radius and at its rim. Frictionless.
-LargestStress stress_below(const Level& level, double nu, double depth);
+// For stresses at `depth` [length]. Pixels are a twelfth of the mean radius of the spots, weighted
+// by their forces, or a sixteenth of the depth, or as small as 4 million of them permit. With a finite
+// period the grid is the rectangle `cell`, otherwise it reaches beyond the spots as far as their
+// largest stresses may be.
+SpotPressures pressures_of_spots(const Level& level, const Period& period, const Rectangle& cell,
+                                 double depth);
 
 }  // namespace rsc

@@ -5,6 +5,7 @@
 #include "case/units.hpp"
 #include "physics/stress/plane_stress.hpp"
 #include "physics/stress/spot_stress.hpp"
+#include "physics/stress/stress_error_table.hpp"
 
 namespace rsc {
 namespace {
@@ -124,12 +125,7 @@ public:
 
     bool record(const Level& level, std::vector<double>& curves) override {
         std::vector<LargestStress> all;
-        for (const double depth : depths_)
-            all.push_back(
-                std::isnan(level.force) ? LargestStress{}
-                : map_                  ? stress_below(*map_, level.pixels, body_, depth,
-                                                       stressed_window(*map_, level.pixels, body_.period, depth))
-                                        : stress_below(level, body_.nu, depth));
+        for (const double depth : depths_) all.push_back(largest_at(depth, level));
         for (const Measure& m : kMeasures)
             for (const auto part : kParts)
                 for (const LargestStress& s : all) curves.push_back(s.*m.largest.*part);
@@ -149,31 +145,41 @@ public:
     }
 
 private:
+    LargestStress largest_at(double depth, const Level& level) const {
+        if (std::isnan(level.force)) return {};
+        const Period& period = body_.period;
+        if (map_)
+            return stress_below(*map_, level.pixels, body_, depth,
+                                stressed_window(*map_, level.pixels, period, depth));
+        const SpotPressures spots =
+            pressures_of_spots(level, period, {0, 0, period.x, period.y}, depth);
+        return stress_below(spots.grid, spots.pixels, body_, depth,
+                            {0, 0, spots.grid.nx, spots.grid.ny});
+    }
+
     const HeightMap* map_;
     std::vector<double> depths_;
     StressedBody body_;
 };
 
-// Largest stresses, over border_share, at the surface; they fall with the depth in pixels. The
-// tension behind the edge of a sliding contact rises like the root of the distance, and so does its
-// error. That of the tension, which may vanish, is in proportion to von Mises's stress there. The
-// constants are made by input/trust/resolution.py (fit, sliding).
 void state_stress_errors(std::span<double> curves, std::span<const double> depths, double step,
-                         const Case& settings, const LevelValues&, double border) {
-    constexpr double kMises = 0.14, kShear = 0.16, kTension = 0.05, kSlidingEdge = 0.5;
+                         const Case& settings, const LevelValues& level, const GridBodies& bodies) {
     const std::size_t n = depths.size();
     const auto curve = [&](std::size_t measure, std::size_t part) {
         return curves.subspan((measure * kCurves + part) * n, n);
     };
     for (const auto k : indices(depths)) {
-        const double shallow = 1 + 2 * depths[k] / step, mises = curve(0, 0)[k],
-                     tension = std::abs(curve(2, 0)[k]);
-        curve(0, 1)[k] = kMises * border * std::pow(shallow, -0.75);
-        curve(1, 1)[k] = kShear * border * std::pow(shallow, -0.75);
-        double error = kTension * border / shallow * mises;
+        const auto error = [&](const StressError& e) {
+            return e.factor * std::pow(level.border_share, e.power) *
+                   std::pow(1 + 2 * depths[k] / step, -e.deeper) * e.factors.of(level, bodies);
+        };
+        curve(0, 1)[k] = error(kMisesError);
+        curve(1, 1)[k] = error(kShearError);
+        const double tension = std::abs(curve(2, 0)[k]);
+        double of_tension = error(kTensionError) * curve(0, 0)[k];
         if (settings.output.sliding_direction && settings.solids.friction > 0)
-            error += kSlidingEdge * std::sqrt(border) / shallow * tension;
-        curve(2, 1)[k] = error / tension;
+            of_tension += error(kSlidingEdgeError) * tension;
+        curve(2, 1)[k] = of_tension / tension;
     }
 }
 

@@ -253,56 +253,32 @@ TEST(hertz_line_that_repeats_along_its_axis) {
           apart[2] < 2e-3);  // of p0 = 1
 }
 
+// One spot, p0 = 1 over a = 1. Huber's solution (nu = 0.3): von Mises's stress is largest at the
+// depth 0.48, tensions at small depths beyond the rim. Two flats have the same stresses wherever the
+// period begins, and the mean pressure.
 TEST(spots_of_asperities) {
-    const double nu = 0.3, f = 2 * pi / 3;  // p0 = 1 over a = 1
-    for (const double z : {0.1, 0.48, 1.0, 3.0}) {
-        const StressTensor axis = hertz_stress(0, z, f, 1, nu);
-        CHECK_CLOSE(axis.zz, -1 / (1 + z * z), 1e-12);
-        CHECK_CLOSE(axis.xx, -(1 + nu) * (1 - z * std::atan(1 / z)) + 0.5 / (1 + z * z), 1e-12);
-        CHECK_CLOSE(axis.xx, axis.yy, 1e-12);
-    }
-    CHECK_CLOSE(hertz_stress(1, 0, f, 1, nu).xx, (1 - 2 * nu) / 3, 1e-12);
-    CHECK_CLOSE(hertz_stress(1, 0, f, 1, nu).yy, -(1 - 2 * nu) / 3, 1e-12);
-    // Off the axis: the sum of point forces over the pressures.
-    for (const auto [r, z] :
-         std::vector<std::array<double, 2>>{{0.5, 0.3}, {1.0, 0.2}, {2.0, 1.0}}) {
-        truth::Tensor sum{};
-        const int n = 400;
-        for (const int i : indices(n))
-            for (const int j : indices(n)) {
-                const double u = 2 * (i + 0.5) / n - 1, v = 2 * (j + 0.5) / n - 1;
-                const double p = std::sqrt(std::max(0.0, 1 - u * u - v * v)) * 4 / n / n;
-                const truth::Tensor t = truth::point_force(2, r - u, -v, z, nu);
-                for (std::size_t c = 0; c < 6; ++c) sum[c] += p * t[c];
-            }
-        const StressTensor s = hertz_stress(r, z, f, 1, nu);
-        CHECK_CLOSE(s.xx, sum[0], 2e-4);
-        CHECK_CLOSE(s.yy, sum[1], 2e-4);
-        CHECK_CLOSE(s.zz, sum[2], 2e-4);
-        CHECK_CLOSE(s.xz, sum[4], 2e-4);
-    }
-    // Two spots beside each other as pixels: within 2 %.
-    const PointGrid grid = square_grid(241, 0.025);
     Level level;
-    level.x = {-1.2, 1.2};
-    level.y = {0, 0};
-    level.f = {f, f * 0.064};
-    level.a = {1, 0.4};
-    level.pixels = pressures(grid, [&](double x, double y) {
-        double sum = 0;
-        for (std::size_t k = 0; k < 2; ++k) {
-            const double dx = (x - level.x[k]) / level.a[k], dy = (y - level.y[k]) / level.a[k];
-            // p0 = 1.5 f/(pi a^2) is the radius here
-            sum += level.a[k] * std::sqrt(std::max(0.0, 1 - dx * dx - dy * dy));
-        }
-        return sum;
-    });
-    for (const double z : {0.3, 0.5, 1.0}) {
-        const LargestStress spots = stress_below(level, nu, z);
-        const LargestStress elements = largest(grid, level.pixels, {nu, {}, {}}, z);
-        CHECK_CLOSE(spots.mises.value / elements.mises.value, 1, 0.02);
-        CHECK_CLOSE(spots.shear.value / elements.shear.value, 1, 0.02);
+    level.add_contact(0, 0.3, -0.2, 2 * pi / 3, 1, 0);
+    const auto largest_at = [&](double z, const StressedBody& body, const Rectangle& cell) {
+        const SpotPressures spots = pressures_of_spots(level, body.period, cell, z);
+        return largest(spots.grid, spots.pixels, body, z);
+    };
+    const StressedBody free{0.3};
+    CHECK_CLOSE(largest_at(0.48, free, {}).mises.value, 0.620, 0.006);
+    CHECK_CLOSE(largest_at(0.48, free, {}).shear.value, 0.310, 0.003);
+    for (const auto& [depth, tension] :
+         {std::pair{0.1, 0.0169}, std::pair{0.25, 0.0072}, std::pair{0.5, 0.0067}})
+        CHECK_RELATIVE(largest_at(depth, free, {}).tension.value, tension, 0.05);
+    const StressedBody flats{0.3, {}, {16, 16}};
+    for (const double z : {0.5, 4.0, 12.0}) {
+        const Rectangle cell{-8, -8, 16, 16}, rolled{0, -8, 16, 16};
+        const LargestStress one = largest_at(z, flats, cell), other = largest_at(z, flats, rolled);
+        CHECK_RELATIVE(one.mises.value, other.mises.value, 1e-9);
+        CHECK_CLOSE(one.tension.value, other.tension.value, 1e-9 * one.mises.value);
     }
+    // Far below, zz = -p and xx = yy = -nu/(1 - nu) p.
+    const double p = 2 * pi / 3 / 256;
+    CHECK_RELATIVE(largest_at(40, flats, {-8, -8, 16, 16}).tension.value, -0.3 / 0.7 * p, 1e-5);
 }
 
 std::vector<double> values_of(const std::string& text, const std::string& path,

@@ -1,0 +1,20 @@
+// Written by input/trust/resolution.py from its study of grids four times finer; do not edit.
+#pragma once
+
+#include "physics/grid_bodies.hpp"
+
+namespace rsc {
+
+// Expected relative errors of the largest stresses at a depth of d pixels: factor border_share^power (1 + 2
+// d)^-deeper; of the tension, which may vanish, relative to von Mises's stress. The tension behind
+// the edge of a sliding contact rises like the root of the distance, and so does its own error.
+struct StressError {
+    double factor, power, deeper;
+    ClassFactors factors;
+};
+inline constexpr StressError kMisesError = {0.134, 1, 0.75, {1.5, 4.81, 3.12}};
+inline constexpr StressError kShearError = {0.133, 1, 0.75, {1.5, 5.49, 3.52}};
+inline constexpr StressError kTensionError = {0.114, 1, 1.5, {1, 1, 1.15}};
+inline constexpr StressError kSlidingEdgeError = {0.466, 0.5, 1, {1, 1, 1}};
+
+}  // namespace rsc
