@@ -204,6 +204,22 @@ def study(results, options):
     return _page(results, options, found, panels).finish(title(results, f"Study at {name}"))
 
 
+def _mark(page, results, found, values, at):
+    """Rings around pull-off forces in doubt, and arrows where the bodies still stick at the last
+    level, so that the force may be larger."""
+    axis, (_, texts, along, _) = page.axes[0], found
+    x = np.array([_in_order(t[along])[1] for t in texts])
+    statuses = [r["status"].reshape(-1, r.steps)[:, k] for r, k in zip(results, at)]
+    doubt = np.array([np.nanmax(status) > 0 for status in statuses])
+    stuck = np.array([np.nan_to_num(r.mean("contacts"))[-1] > 0 for r in results])
+    for these, marker, text in (
+        (doubt, "o", "in doubt (status above 0)"),
+        (stuck, "^", "still attached at the last level: at least"),
+    ):
+        if these.any():
+            axis.plot(x[these], values[these], marker, mfc="none", mec="k", ms=9, label=text)
+
+
 def pulloff(results, options):
     """Pull-off force and work lost against the keys that vary, beside the smooth ball (JKR)."""
     results = [r for r in results if r.pulls() and r.carrying().size]
@@ -213,10 +229,14 @@ def pulloff(results, options):
     values = -np.array([float(r.mean("pull_off_force")) for r in results])
     errors = np.array([float(r.standard_error(r["pull_off_force"])) for r in results])
     dimension = results[0].dimension("pull_off_force")
-    panels = [Panel("pull_off_force", values, errors, 0 * values, dimension)]
+    at = [int(np.nanargmin(r.mean("force"))) for r in results]  # the level of the smallest force
+    expected = np.array([r.error("force")[k] for r, k in zip(results, at)]) * values
+    panels = [Panel("pull_off_force", values, errors, expected, dimension)]
     if all("energy_lost" in r for r in results):
         panels.append(_at_level(results, [r.steps - 1 for r in results], "energy_lost"))
     page = _page(results, options, found, panels)
+    if found[2] is not None:
+        _mark(page, results, found, values, at)
     smooth = {short(abs(curve[0].min())) for curve in map(jkr, results) if curve is not None}
     if len(smooth) == 1 and found[2] is not None:
         axis, least = page.axes[0], float(smooth.pop())

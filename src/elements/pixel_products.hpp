@@ -68,6 +68,11 @@ std::unique_ptr<PixelProducts> make_line_products(const Substrate& substrate, co
                                                   int nx, int ny, double dx, double dy,
                                                   bool shifted = true);
 
+// Products for a surface that repeats along both axes, with deflections measured from their mean
+// (periodic_pixels.hpp), by transforms over the whole period. Pixels are sorted by rows.
+std::unique_ptr<PixelProducts> make_periodic_products(const Substrate& substrate,
+                                                      const PointGrid& map);
+
 // Those for an indenter on a free surface, or one that repeats along one axis.
 std::unique_ptr<PixelProducts> make_products(const Substrate& substrate, const Period& period,
                                              const PointGrid& map, double inner_error,

@@ -69,9 +69,16 @@ RunSummary summary_of(const Result& result) {
     // The means of a single level that did not converge are missing, but it has values.
     const bool one = o.realizations == 1;
     const LevelValues& last = o.rows.back();
+    const std::size_t steps = o.rows.size() / std::max<std::size_t>(1, std::size_t(o.realizations));
+    double least = 0;
+    for (std::size_t k = steps; k > 0 && k <= o.rows.size(); k += steps)
+        least += o.rows[k - 1].least_force / double(o.realizations);
     return {long(o.rows.size() + result.compared.levels.size()),
-            long(failed) + result.compared.failed, one ? last.separation : o.separation.mean.back(),
-            one ? last.force : o.force.mean.back(), one ? last.area : o.area.mean.back()};
+            long(failed) + result.compared.failed,
+            one ? last.separation : o.separation.mean.back(),
+            one ? last.force : o.force.mean.back(),
+            one ? last.area : o.area.mean.back(),
+            least};
 }
 
 void tell_failed(const RunOptions& options, const RunSummary& summary) {

@@ -28,6 +28,7 @@ struct RunSummary {
     long levels = 0, failed = 0;
     double separation = 0;  // of the last level; its means over the realizations:
     double force = 0, area = 0;
+    double least_force = kNotComputed;  // adhesion: smallest of all levels
 };
 
 // The files that a case reads: heights, spectrum or asperities of the surface, and the map of the

@@ -296,6 +296,9 @@ private:
             *table_ << member_name(member)
                     << format(": N = %.8g %s, A = %.8g %s2 at Z0 = %.6g %s; ", summary.force, f,
                               summary.area, l, summary.separation, l)
+                    << (std::isnan(summary.least_force)
+                            ? ""
+                            : format("pull-off %.6g %s; ", -summary.least_force, f))
                     << member.settings.output.file << std::endl;
         }
         if (summary.failed > 0 && options_.messages)

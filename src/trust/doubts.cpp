@@ -20,8 +20,9 @@ std::string sentence(Cause cause, bool elements) {
         "spots are larger than those for which the contact law and its expected error hold",
         "the summits have too few points, or are spikes one point wide",
         "spots with a radius above a fifth of the thickness of the top layer",
-        "the attraction at edges of contact acts across less than four pixels: the error of N may "
-        "be large",
+        "the attraction at edges of contact acts across less than four pixels "
+        "(cohesive_resolution), or its range is not small beside the roughness that it bridges: N "
+        "and the pull-off force may be far off; adhesion_range = 0 needs no range",
         "such surfaces or bodies were not compared with elements, so that no error is stated",
         "N = 0 is uncertain: the bodies may touch between the points of the grid",
         "N may differ from that of elements at this separation by more than 10 %",

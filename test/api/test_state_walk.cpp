@@ -187,8 +187,7 @@ TEST(state_walk) {
     const std::string ball = "R=Infinity,2.5 ", flats = "R=Infinity,Infinity ",
                       elements = " / &solver model='elements' /",
                       periodic = elements + " &indentation boundary='periodic' /",
-                      relaxing = "relaxation_share=0.4,0.3 relaxation_time=1,20 ",
-                      attracting = "adhesion=0.01 adhesion_range=3e-3 ";
+                      relaxing = "relaxation_share=0.4,0.3 relaxation_time=1,20 ";
     for (const std::string law : {"hertz", "elliptic", "fourth_order"}) {
         const std::string by = " / &asperities law='" + law + "' /";
         for (const std::string& more :
@@ -209,9 +208,10 @@ TEST(state_walk) {
                                     std::string("wear_coefficient=1e-5 ")})
         for (const std::string& bodies : {ball, flats})
             walk(bodies + more + (bodies == ball ? elements : periodic), 10);
-    for (const std::string& bodies : {ball, flats})
-        walk(bodies + attracting + (bodies == ball ? elements : periodic), 4,
-             "&surface n=32 L_lambda_l=2 L_lambda_s=8 L=1 sigma=0.01 / ");
+    for (const std::string& range : {std::string(), std::string("adhesion_range=3e-3 ")})
+        for (const std::string& bodies : {ball, flats})
+            walk(bodies + "adhesion=0.01 " + range + (bodies == ball ? elements : periodic), 4,
+                 "&surface n=32 L_lambda_l=2 L_lambda_s=8 L=1 sigma=0.01 / ");
 }
 
 }  // namespace test_state_walk

@@ -42,14 +42,15 @@ TEST(auto_model) {
     cone.indenter.slope = 0.1;
     CHECK(elements(cone));
 
+    Case sticky = ball(1e-4, 10);
+    sticky.solids.adhesion = 1e-5;
+    CHECK(elements(sticky));
+
     // What only asperities have keeps them.
     Case yielding = ball(1e-4, 10);
     yielding.solids.hardness = 3e3;
     yielding.solids.size_effect = 1e-3;
     CHECK(!elements(yielding));
-    Case sticky = ball(1e-4, 10);
-    sticky.solids.adhesion = 1e-5;
-    CHECK(!elements(sticky));
     Case listed;
     listed.surface.source = Source::asperities;
     CHECK(!elements(listed));

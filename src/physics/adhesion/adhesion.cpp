@@ -18,7 +18,7 @@ std::vector<Key> adhesion_keys() {
                "levels before it"),
         number(RSC_KEY(solids, adhesion_range), "length", kNotNegative,
                "range z0 of the attraction, a constant traction w/z0 across gaps below z0 "
-               "(Dugdale); 0: attraction of zero range (JKR)"),
+               "(Dugdale); 0: attraction of zero range (JKR), by asperities or elements"),
     };
 }
 
@@ -119,7 +119,9 @@ void print_sticking(std::ostream& out, const RunFacts& run) {
     if (levels.empty()) return;
     long jumps = 0;
     double lost = 0, least = 0, attracting = 0;
+    const LevelValues* smallest = nullptr;
     for (const LevelValues& level : levels) {
+        if (level.least_force < least) smallest = &level;
         attracting = std::fmax(attracting, level.area + level.cohesive_area);
         jumps += level.jumps;
         lost = std::fmax(lost, level.energy_lost);
@@ -128,18 +130,23 @@ void print_sticking(std::ostream& out, const RunFacts& run) {
     std::string how;
     if (run.elements)
         how = format(" (steps that lose less than %.1g count as reversible)",
-                     kAdhesiveLossShare * run.settings.solids.adhesion * attracting);
+                     loss_share(run.settings.solids.adhesion_range) * run.settings.solids.adhesion *
+                         attracting);
     const auto& units = run.settings.run;
     const bool without_state =
         std::ranges::any_of(levels, [](const LevelValues& l) { return std::isnan(l.force); });
     if (units.realizations == 1 && without_state)
         out << "  adhesion: the smallest force is not known, because levels have no state.\n";
-    else if (units.realizations == 1)
+    else if (units.realizations == 1) {
+        const bool apart = levels.back().contacts == 0;
         out << format(
-            "  adhesion: the smallest force is %.4g %s; jumps: %ld, energy lost: %.4g %s %s%s. "
-            "Results depend on the loading history.\n",
-            least, units.force_unit.c_str(), jumps, lost, units.force_unit.c_str(),
+            "  adhesion: the smallest force is %.4g %s%s; the bodies are %s at the last level; "
+            "jumps: %ld, energy lost: %.4g %s %s%s. Results depend on the loading history.\n",
+            least, units.force_unit.c_str(),
+            smallest ? (" up to " + run.place_of(*smallest)).c_str() : "",
+            apart ? "separated" : "still attached", jumps, lost, units.force_unit.c_str(),
             units.length_unit.c_str(), how.c_str());
+    }
     print_tabor(out, run);
     print_stickiness(out, run);
 }
@@ -163,6 +170,7 @@ void require_separate_contacts(const PreparedFacts& facts) {
 void require_feasible(const PreparedFacts& facts) {
     if (!facts.elements) return require_separate_contacts(facts);
     const Case::Solids& s = facts.settings.solids;
+    if (!(s.adhesion_range > 0)) return;
     require_resolved(facts.indenter.E_star, {s.adhesion, s.adhesion_range}, facts.side);
 }
 
@@ -198,30 +206,16 @@ const Physics kAdhesion = {
                   [](const Combination& c) {
                       return has_range(c) && !c.elements && !capabilities_of(c.law).paraboloid;
                   }},
-                 {"solver%model", "elements need adhesion_range > 0",
-                  [](const Combination& c) { return !has_range(c) && c.elements; }},
-                 {"compare%levels", "elements need adhesion_range > 0",
-                  [](const Combination& c) { return !has_range(c) && c.compares; }},
                  {"solver%method", "'dgesv' has no tensile forces",
                   [](const Combination& c) { return c.method == Method::dgesv; }},
                  {"indentation%selection", "asperities beyond the circle of 'paper' attract, too",
                   [](const Combination& c) { return c.selection == Selection::paper; }},
                  {"indentation%boundary", "", [](const Combination& c) { return c.line; }}},
     .check = check_adhesion,
-    .needs_asperities =
-        [](const Case& c) {
-            return c.solids.adhesion_range > 0
-                       ? ""
-                       : "solids%adhesion without adhesion_range needs them";
-        },
     .path = "attached spots (solids adhesion) remain attached until pull-off",
     .quantities = adhesion_quantities(),
     .pulls = true,
     .require_feasible = require_feasible,
-    .for_elements =
-        [](const Case& c) {
-            return c.solids.adhesion_range > 0 ? "" : " with a solids%adhesion_range";
-        },
     .compares_itself = [](const Case&) { return false; },
     .bytes_per_point = 49,
     .remark = print_sticking,

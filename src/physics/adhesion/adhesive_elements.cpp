@@ -14,12 +14,7 @@ public:
                      const SolverOptions& options)
         : state_(heights, indenter, options) {}
 
-    double stiffness(double) override {
-        if (std::ranges::none_of(state_.q, [](double q) { return q > 0; })) return 0;
-        return state_.flats
-                   ? -state_.heights.Lx() * state_.heights.Ly() * state_.flats->stiffness(false)
-                   : -state_.pixel * state_.spots->stiffness(1e-9, false);
-    }
+    double stiffness(double) override { return state_.stiffness(); }
     double energy() const override { return state_.now.energy; }
     double first_touch() const override { return state_.top; }
     const Indenter& indenter() const override { return state_.indenter; }
@@ -38,7 +33,7 @@ public:
     void recall(ArchiveReader& from) override {
         exchange(from, state_);
         state_.tried.reset();
-        for (const auto* values : {&state_.q, &state_.p_before})
+        for (const auto* values : {&state_.q, &state_.share, &state_.p_before})
             if (values->size() != state_.clearance.size())
                 bad_input("this is not the state of a contact of this surface");
         if (state_.flats) return state_.flats->recall(from);
@@ -48,7 +43,7 @@ public:
 private:
     template <class Archive, class Self>
     static void exchange(Archive& a, Self& state) {
-        a(state.q, state.p_before, state.margin, state.bulged, state.accepted.energy);
+        a(state.q, state.share, state.p_before, state.margin, state.bulged, state.accepted.energy);
     }
     double attraction() const override { return state_.z0; }
     void accept(Level&) override {

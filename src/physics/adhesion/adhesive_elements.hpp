@@ -24,7 +24,8 @@ inline double cohesive_length(double E_star, const Adhesion& adhesion) {
     return 0.25 * std::numbers::pi * E_star * adhesion.range * adhesion.range / adhesion.work;
 }
 
-inline constexpr double kAdhesiveLossShare = 1e-3;
+// Share of w times the area that attracts, below which a step counts as reversible.
+inline double loss_share(double range) { return range > 0 ? 1e-3 : 3e-3; }
 
 // Throws Error(bad_input) if the cohesive length is less than half of the grid step.
 void require_resolved(double E_star, const Adhesion& adhesion, double step);
@@ -36,8 +37,7 @@ void require_resolved(double E_star, const Adhesion& adhesion, double step);
 //   energy()      elastic energy minus s0 (z0 - w) integrated over the attracting points;
 //   energy_lost of a level: a step between separations that seems to lose energy, its work minus
 //                 the change of the energy, is divided until it does not or is so short that it is
-//                 a jump. A step that loses less than kAdhesiveLossShare of w times the area that
-//                 attracts counts as reversible
+//                 a jump. A step that loses less than loss_share() counts as reversible
 //   stiffness()   dN/dZ0 for fixed attracting points
 //   move_tip()    follows the state along the straight (on a surface that repeats, the shortest)
 //                 way of the tip at the last separation, in pieces of at most a quarter of a pixel;

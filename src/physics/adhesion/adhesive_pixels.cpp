@@ -15,7 +15,9 @@ constexpr double kCoarsest = 0.5, kFine = 4;
 // Energy that a step between separations may seem to lose, relative to w times the area that
 // attracts: if it seems to lose more, it contains a jump or its trapezoidal work is not accurate,
 // and it is divided until it is this share of a level's way.
-constexpr double kLossShare = kAdhesiveLossShare, kShortest = 1.0 / 4096;
+constexpr double kShortest = 1.0 / 4096;
+// Without a range: the same, and the error of the work of a step, relative to it.
+constexpr double kShortestOfEdges = 1.0 / 16, kWorkError = 0.01;
 constexpr std::size_t kFewest = 8;    // least number of points of a jump, if there are several
 constexpr double kInnerError = 1e-3;  // error of products in iterations
 constexpr double kEarly = 0.1;        // error of pressures relative to the change of the attraction
@@ -24,6 +26,9 @@ constexpr double kFinest = 1e-9;      // smallest tolerance
 constexpr double kSettled = 0.3;      // last change of the attraction relative to the tolerance
 constexpr double kProductError = 0.3;  // error of products relative to that of pressures
 constexpr int kMost = 2000;            // renewals of the attraction
+// Change of shares at edges, in pixels, relative to the tolerance of forces.
+constexpr double kEdgeTolerance = 10;
+constexpr double kPenetration = 1e-3;  // relative to z0: of points apart from contacts
 // Longest piece of a way of the tip: change of the clearances of attracting points relative to z0,
 // and number of pixel sides.
 constexpr double kPiece = 0.25, kPieceSides = 0.25;
@@ -155,12 +160,18 @@ AdhesivePixels::AdhesivePixels(const HeightMap& heights_, const Indenter& indent
       heights(heights_),
       indenter(indenter_),
       options(options_),
-      s0(options.physics.of<Adhesion>().work / options.physics.of<Adhesion>().range),
-      z0(options.physics.of<Adhesion>().range),
       pixel(heights.dx * heights.dy) {
-    require_resolved(indenter.E_star, options.physics.of<Adhesion>(),
-                     std::max(heights.dx, heights.dy));
+    const auto& [work, range] = options.physics.of<Adhesion>();
     const Substrate body = substrate_of(indenter);
+    if (range > 0) {
+        require_resolved(indenter.E_star, {work, range}, std::max(heights.dx, heights.dy));
+        z0 = range;
+        s0 = work / range;
+    } else {
+        const double row = AdhesiveEdges::kRow * std::sqrt(pixel) / body.modulus();
+        s0 = std::sqrt(2 * work / row);
+        z0 = 2 * work / s0;
+    }
     if (indenter.period.finite()) {
         raised = heights.copy();
         set_clearances();
@@ -175,6 +186,12 @@ AdhesivePixels::AdhesivePixels(const HeightMap& heights_, const Indenter& indent
                                    0.1 * options.tolerance, false);
         spots.emplace(*products, kInfinity);
         set_clearances();
+    }
+    if (!(range > 0)) {
+        edge_products = flats ? make_periodic_products(body, heights)
+                              : make_tree_products(body, heights.dx, heights.dy, kInnerError,
+                                                   0.1 * options.tolerance, false);
+        edges.emplace(*edge_products, *this, bool(flats), s0, z0);
     }
     forget();
 }
@@ -338,6 +355,7 @@ bool AdhesivePixels::press(double Z, double tolerance, Level& level) {
 // nearest equilibrium if the separation has changed, and do not pass it. Returns false if it does
 // not converge.
 bool AdhesivePixels::renew(double Z, Level& level) {
+    if (edges) return balance_edges(Z, level);
     gather(Z);
     std::vector<double> next;
     Iterates iterates;
@@ -377,6 +395,102 @@ bool AdhesivePixels::renew(double Z, Level& level) {
     return false;
 }
 
+// Without a range, bodies that are apart touch where they would without adhesion. Returns false if
+// this does not converge.
+bool AdhesivePixels::touch(double Z, Level& level) {
+    std::ranges::fill(q, 0.0);
+    if (!(top > Z)) return true;
+    gather(Z);
+    lift.assign(reach.size(), 0.0);
+    if (!press(Z, kInnerError, level)) return false;
+    for (const std::int32_t k : reach)
+        if (double& here = q[at(k)]; here > 0) {
+            here += s0;
+            share[at(k)] = 1;
+        }
+    return true;
+}
+
+// Selects the points at which the edges may run.
+void AdhesivePixels::select_edges(bool more) {
+    std::vector<double> p(q.size());
+    for (const auto i : indices(p)) p[i] = pressure(i);
+    edges->select(p, share, more);
+    reach.clear();
+    for (const Pixel& here : edges->pixels()) reach.push_back(place(here));
+}
+
+// Points apart from the contacts that the attraction raises so far that they touch. Returns whether
+// there are any.
+bool AdhesivePixels::join(double Z) {
+    const std::vector<double>& p = edges->pressure();
+    std::vector<double> pull(p.size()), w(p.size());
+    for (const auto k : indices(p)) pull[k] = std::min(p[k], 0.0);
+    edge_products->apply(pull.data(), w.data(), PixelProducts::Accuracy::inner);
+    double most = bulge * pixel * sum_of(q);
+    for (const double u : w) most = std::max(most, -u);
+    std::vector<char> in(share.size(), 0);
+    for (const std::int32_t k : reach) in[at(k)] = 1;
+    std::vector<Pixel> others;
+    for (const int j : indices(heights.ny))
+        for (const int i : indices(heights.nx))
+            if (const std::size_t k = at(place({i, j}));
+                !in[k] && (flats || clearance[k] > Z - most))
+                others.push_back({i, j});
+    if (others.empty()) return false;
+    w.resize(others.size());
+    edge_products->elsewhere(p.data(), others, w.data());
+    bool any = false;
+    for (const auto k : indices(others)) {
+        const std::size_t i = at(place(others[k]));
+        if (!(w[k] - (clearance[i] - Z) < -kPenetration * z0)) continue;
+        share[i] = 1;
+        q[i] = s0;
+        any = true;
+    }
+    return any;
+}
+
+// The state at Z next to the present one, without a range.
+bool AdhesivePixels::balance_edges(double Z, Level& level) {
+    const double aim = std::max(kEdgeTolerance * options.tolerance, kFinest);
+    if (sum_of(share) == 0 && !touch(Z, level)) return false;
+    for (bool more = false;; more = true) {
+        const long before = edge_products->count();
+        select_edges(more);
+        const AdhesiveEdges::Outcome outcome = edges->balance(clearance, Z, aim);
+        std::ranges::fill(q, 0.0);
+        for (const auto k : indices(reach)) {
+            const std::size_t i = at(reach[k]);
+            share[i] = edges->share()[k];
+            gap[i] = edges->gap()[k];
+            if (share[i] == 1) q[i] = edges->pressure()[k] + s0;
+        }
+        const bool sound = outcome.converged || outcome.wider,
+                   again = outcome.wider || (sound && !reach.empty() && join(Z));
+        level.iterations += outcome.rounds;
+        level.products += edge_products->count() - before;
+        level.residual = outcome.residual;
+        if (!sound || level.iterations > kMost) return false;
+        if (!again) break;
+    }
+    attracted = 0;
+    for (const std::int32_t k : reach) attracted += 0.5 * z0 * share[at(k)] * share[at(k)];
+    return true;
+}
+
+// dN/dZ0 for the present attraction.
+double AdhesivePixels::stiffness() {
+    if (edges) {
+        if (sum_of(share) == 0) return 0;
+        select_edges(false);
+        return -pixel * edges->stiffness();
+    }
+    if (std::ranges::none_of(q, [](double value) { return value > 0; })) return 0;
+    return flats ? -heights.Lx() * heights.Ly() * flats->stiffness(false)
+                 : -pixel * spots->stiffness(1e-9, false);
+}
+
 // The level at Z next to the accepted state, or next to the attraction of another one.
 Level AdhesivePixels::step(double Z, const Past* start) {
     now = accepted;
@@ -405,7 +519,7 @@ Level AdhesivePixels::step(double Z, const Past* start) {
         const std::size_t i = at(reach[k]);
         const Pixel here = pixel_at(reach[k]);
         twice += pressure(i) * (gap[i] + clearance[i] - Z);
-        if (q[i] > 0) {
+        if (touches(i)) {
             touching.push_back(here);
             pressures.push_back(pressure(i));
         } else if (share[i] > 0) {
@@ -417,7 +531,7 @@ Level AdhesivePixels::step(double Z, const Past* start) {
     add_pixels(level, frame, indenter, kInfinity, touching, std::move(pressures), s0);
     number_by_map(level);
     level.force -= pixel * s0 * cohesive;
-    level.cohesive_area = pixel * cohesive;
+    level.cohesive_area = edges ? 0.0 : pixel * cohesive;
     level.cohesive_resolution = resolution();
     now.energy = pixel * (0.5 * twice - s0 * attracted);
     now.force = level.force;
@@ -432,16 +546,21 @@ Level AdhesivePixels::step(double Z, const Past* start) {
 
 // Energy that a step may seem to lose without a jump, or that the place of a jump in it may change.
 double AdhesivePixels::negligible() const {
-    return kLossShare * options.physics.of<Adhesion>().work * pixel *
-           std::max(sum_of(now.share), sum_of(accepted.share));
+    return loss_share(options.physics.of<Adhesion>().range) * options.physics.of<Adhesion>().work *
+               pixel * std::max(sum_of(now.share), sum_of(accepted.share)) +
+           (edges ? kWorkError * std::abs(work_of_step()) : 0.0);
+}
+
+double AdhesivePixels::work_of_step() const {
+    if (!(accepted.separation < kInfinity)) return 0;
+    return 0.5 * (accepted.force + now.force) * (accepted.separation - now.separation);
 }
 
 // The work of the step from the accepted state, by the trapezoidal rule, minus the change of the
 // energy.
 double AdhesivePixels::lost_in_step() const {
     if (!(accepted.separation < kInfinity)) return 0;
-    return 0.5 * (accepted.force + now.force) * (accepted.separation - now.separation) -
-           (now.energy - accepted.energy);
+    return work_of_step() - (now.energy - accepted.energy);
 }
 
 // Divides the step from the accepted state to this level, if it seems to lose energy, until it does
@@ -500,7 +619,7 @@ Level AdhesivePixels::solve(double Z, bool trial) {
         p_before = pressures;
     };
     try {
-        divide(level, kShortest * std::abs(Z - accepted.separation));
+        divide(level, (edges ? kShortestOfEdges : kShortest) * std::abs(Z - accepted.separation));
     } catch (...) {
         take_back();
         throw;

@@ -5,6 +5,7 @@
 #include "elements/cut_map.hpp"
 #include "elements/elements.hpp"
 #include "elements/periodic_elements.hpp"
+#include "physics/adhesion/adhesive_edges.hpp"
 #include "physics/adhesion/adhesive_elements.hpp"
 #include "physics/adhesion/sticking.hpp"
 
@@ -22,11 +23,15 @@ struct AdhesivePixels : CutMap {
     const HeightMap& heights;
     Indenter indenter;
     SolverOptions options;
-    double s0, z0, pixel;
+    double s0 = 0, z0 = 0;  // traction and range; without a range those of the edges
+    double pixel;
     HeightMap raised;                         // periodic flats: heights for the solver
     std::unique_ptr<PeriodicElements> flats;  // between flats
     std::unique_ptr<PixelProducts> products, field;
     std::optional<ElementsSolver> spots;
+    // Attraction without a range:
+    std::unique_ptr<PixelProducts> edge_products;
+    std::optional<AdhesiveEdges> edges;
 
     // For all points of the map: clearance under the indenter, the share of s0 that acts on the
     // point (attraction()), and the pressure without this attraction.
@@ -49,6 +54,7 @@ struct AdhesivePixels : CutMap {
                    const SolverOptions& options_);
 
     double resolution() const {
+        if (edges) return kNotComputed;
         return cohesive_length(indenter.E_star, options.physics.of<Adhesion>()) /
                std::max(heights.dx, heights.dy);
     }
@@ -58,6 +64,14 @@ struct AdhesivePixels : CutMap {
     void gather(double Z);
     double attraction(std::vector<double>& shares) const;
     bool renew(double Z, Level& level);
+    bool touch(double Z, Level& level);
+    bool join(double Z);
+    void select_edges(bool more);
+    bool balance_edges(double Z, Level& level);
+    bool touches(std::size_t i) const {
+        return edges ? share[i] >= 0.5 && pressure(i) > -s0 : q[i] > 0;
+    }
+    double stiffness();
     bool press(double Z, double tolerance, Level& level);
     std::int32_t count_jumps() const;
     void keep();
@@ -67,6 +81,7 @@ struct AdhesivePixels : CutMap {
     std::vector<double> deflections(const std::vector<double>& p, double tolerance);
     Level step(double Z, const Past* start = nullptr);
     double negligible() const;
+    double work_of_step() const;
     void divide(Level& level, double shortest);
     double lost_in_step() const;
     Level solve(double Z, bool trial);

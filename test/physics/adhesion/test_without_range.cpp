@@ -1,0 +1,304 @@
+// Elements that attract without a range (physics/adhesion/adhesive_edges.hpp), against Johnson,
+// Kendall and Roberts's sphere, Johnson's wave between flats, Guduru's wavy sphere and a slow
+// minimiser.
+#include "check.hpp"
+#include "contact/make.hpp"
+#include "interaction/kernel.hpp"
+#include "physics/adhesion/adhesive_edges.hpp"
+#include "physics/adhesion/sticking.hpp"
+#include "support/bodies.hpp"
+#include "support/height_maps.hpp"
+#include "support/judged.hpp"
+#include "truth/elimination.hpp"
+
+namespace test_without_range {
+
+using namespace rsc;
+
+SolverOptions sharp(double w) { return {.physics = bodies_with(Adhesion{w, 0})}; }
+
+// Of radius 1 on a half-space of modulus E* = 1, by the radius of the contact.
+struct Jkr {
+    double w;
+    double force(double a) const { return 4 * a * a * a / 3 - std::sqrt(8 * pi * w * a * a * a); }
+    double approach(double a) const { return a * a - std::sqrt(2 * pi * w * a); }
+    double at_rest() const { return std::cbrt(4.5 * pi * w); }  // the radius at zero force
+    double last() const { return std::cbrt(pi * w / 8); }       // at fixed grips
+    double pull_off() const { return 1.5 * pi * w; }
+    double radius(double d) const {  // of the stable branch
+        double low = last(), high = 1;
+        for (int i = 0; i < 100; ++i) {
+            const double a = 0.5 * (low + high);
+            (approach(a) < d ? low : high) = a;
+        }
+        return low;
+    }
+    // From the contact at first touch to pull-off and back.
+    double lost() const {
+        double sum = 0, high = radius(0);
+        for (int i = 0; i < 100000; ++i) {
+            const double a = last() + (high - last()) * i / 1e5,
+                         b = last() + (high - last()) * (i + 1) / 1e5;
+            sum -= 0.5 * (force(a) + force(b)) * (approach(b) - approach(a));
+        }
+        return sum;
+    }
+};
+
+// n points across four radii of the contact at zero force, which the tip does not lie on.
+HeightMap sphere(const Jkr& truth, int n) {
+    const double h = 4 * truth.at_rest() / n;
+    return height_map(n, n, h, h, [=](int i, int j) {
+        return -0.5 * h * h *
+               (std::pow(i - 0.5 * (n - 1) + 0.1, 2) + std::pow(j - 0.5 * (n - 1) - 0.07, 2));
+    });
+}
+Indenter flat_over(const HeightMap& map) {
+    return {1.0, kInfinity, 0.5 * map.Lx(), 0.5 * map.Ly()};
+}
+
+struct Loop {
+    double pull_off, lost, worst;  // relative to the truth; largest error of N over the pull-off
+};
+// Pressed and pulled off in `levels` levels.
+Loop loop(int n, int levels) {
+    const Jkr truth{1e-4};
+    const HeightMap map = sphere(truth, n);
+    const auto contact = make_element_contact(map, flat_over(map), sharp(truth.w));
+    const double unit = truth.at_rest() * truth.at_rest() / 3;
+    Loop result{};
+    Level level = contact->at_separation(0.5 * unit);
+    CHECK(level.contacts == 0 && level.force == 0);
+    const auto go = [&](double d) {
+        level = judged(contact->at_separation(-d), *contact, sharp(truth.w), &map);
+        CHECK(level.converged);
+        if (d < -0.7 * unit) return;  // near the end of the branch
+        const double a = truth.radius(d), error = std::abs(level.force - truth.force(a));
+        result.worst = std::max(result.worst, error / truth.pull_off());
+        CHECK(error <= level.force_error_expected * std::abs(level.force));
+        CHECK(std::abs(level.area / (pi * a * a) - 1) <= level.area_error_expected);
+    };
+    for (int k = 0; k < levels; ++k) go((0.05 + 1.45 * k / levels) * unit);
+    for (int k = 0; k <= 2 * levels; ++k) go((1.5 - 2.2 * k / (2 * levels)) * unit);
+    for (int k = 1; k <= levels; ++k) go((-0.7 - 0.5 * k / levels) * unit);
+    CHECK(level.contacts == 0 && level.force == 0);
+    CHECK_CLOSE(contact->energy(), 0.0, 0.0);
+    return {-level.least_force / truth.pull_off(), level.energy_lost / truth.lost(), result.worst};
+}
+
+// First order in the pixel: with 8, 16 and 32 pixels to the radius at zero force.
+TEST(test_jkr) {
+    for (const int pixels : {8, 16, 32}) {
+        const Loop of = loop(4 * pixels, 12);
+        CHECK_CLOSE(of.pull_off, 1, 0.6 / pixels);
+        CHECK_CLOSE(of.lost, 1, 1.0 / pixels);
+        CHECK(of.worst < 0.9 / pixels);
+    }
+}
+
+// Pull-off and energy lost do not depend on the number of levels, but for the last force before
+// contact is lost.
+TEST(test_number_of_levels) {
+    const Loop few = loop(64, 6), many = loop(64, 24);
+    CHECK_CLOSE(few.lost, many.lost, 0.01);
+    CHECK_CLOSE(few.pull_off, many.pull_off, 0.02);
+}
+
+// Under a force: the pull-off force is held, JKR's, and no smaller one is.
+TEST(test_force) {
+    const Jkr truth{1e-4};
+    const HeightMap map = sphere(truth, 64);
+    const auto contact = make_element_contact(map, flat_over(map), sharp(truth.w));
+    for (const double N : {0.5, 0.0, -0.5, -0.9}) {
+        const Level level = contact->at_force(N * truth.pull_off());
+        CHECK(level.converged);
+        CHECK_CLOSE(level.force, N * truth.pull_off(), 1e-5 * truth.pull_off());
+    }
+    const Level held = contact->at_force(-2 * truth.pull_off());
+    CHECK(!held.converged && held.fallback == Fallback::held);
+    CHECK_RELATIVE(held.force, -truth.pull_off(), 0.03);
+}
+
+// One wave between flats (Johnson, Int. J. Solids Structures 32, 1995): with 2a of every wavelength
+// in contact, phi = pi a/lambda, the mean pressure is pi E* D/lambda sin^2 phi - sqrt(2 E* w
+// tan(phi)/lambda).
+TEST(test_wave) {
+    constexpr int rows = 4;
+    constexpr double height = 0.1, alpha = 0.3, full = pi * height,
+                     w = alpha * alpha * full * full / 2;
+    const auto pressure = [=](double phi) {
+        return full * (std::pow(std::sin(phi), 2) - alpha * std::sqrt(std::tan(phi)));
+    };
+    double truth = 0;
+    for (double phi = 1e-3; phi < 1; phi += 1e-4) truth = std::min(truth, pressure(phi));
+    for (const int n : {64, 128, 256}) {
+        const double h = 1.0 / n;
+        const HeightMap map = height_map(
+            n, rows, h, h, [=](int i, int) { return height * std::cos(2 * pi * (i + 0.5) * h); });
+        const auto contact =
+            make_element_contact(map, {1.0, kInfinity, 0, 0, {1, rows * h}}, sharp(w));
+        Level level = contact->at_separation(0.09);
+        for (double Z = 0.08; level.force != 0; Z += 1e-3) {
+            level = contact->at_separation(Z);
+            CHECK(level.converged);
+            if (!(level.contacts > 0)) break;
+            CHECK_CLOSE(level.pressure, pressure(0.5 * pi * level.area_pixels / (rows * h)),
+                        4 * h * full);
+        }
+        CHECK_CLOSE(level.least_force / (rows * h), truth, 2 * h * full);
+    }
+}
+
+// Guduru's sphere with waves (J. Mech. Phys. Solids 55, 2007): r^2/2 + A (1 - cos(2 pi r/l)). The
+// path by the contact radius a is that of JKR for any profile s: the penetration without adhesion
+// is u(a) = a int_0^a s'(r)/sqrt(a^2 - r^2) dr, and the force 2 int_0^a u(a) - u(b) db. Edges jump
+// over the radii at which the approach decreases; the work of the loop is lost in these jumps.
+TEST(test_wavy_sphere) {
+    const Jkr smooth{1e-4};
+    const double l = 0.35 * smooth.at_rest(), A = 2e-4, end = 1.5 * smooth.at_rest();
+    constexpr int n = 4000, parts = 200;
+    std::vector<double> N(n), d(n);
+    double integral = 0, before = 0;
+    for (int i = 0; i < n; ++i) {
+        const double a = end * (i + 1) / n;
+        double u = 0;
+        for (int k = 0; k < parts; ++k) {
+            const double r = a * std::sin((k + 0.5) / parts * pi / 2);
+            u += a * pi / 2 / parts * (r + A * 2 * pi / l * std::sin(2 * pi * r / l));
+        }
+        integral += 0.5 * (u + before) * end / n;
+        before = u;
+        N[at(i)] = 2 * (a * u - integral) - std::sqrt(8 * pi * smooth.w * a * a * a);
+        d[at(i)] = u - std::sqrt(2 * pi * smooth.w * a);
+    }
+    double lost = 0, far = 0, least = 0;
+    for (const auto i : indices(d))
+        if (d[i] > far) {
+            lost += N[i] * (d[i] - far);
+            far = d[i];
+        }
+    const double deepest = far;
+    for (auto i = d.size(); i-- > 0;)
+        if (d[i] < far) {
+            lost -= N[i] * (far - d[i]);
+            far = d[i];
+            least = std::min(least, N[i]);
+        }
+    CHECK(lost > 1.5 * smooth.lost());  // with jumps on the way
+    const int points = 100;
+    const double h = 4 * smooth.at_rest() / points;
+    const HeightMap map = height_map(points, points, h, h, [=](int i, int j) {
+        const double r = h * std::hypot(i - 0.5 * (points - 1), j - 0.5 * (points - 1));
+        return -0.5 * r * r - A * (1 - std::cos(2 * pi * r / l));
+    });
+    const auto contact = make_element_contact(map, flat_over(map), sharp(smooth.w));
+    const int levels = 16;
+    Level level = contact->at_separation(1e-3);
+    for (int k = 0; k <= levels; ++k) level = contact->at_separation(-deepest * k / levels);
+    for (int k = levels; k >= -levels / 4; --k)
+        level = contact->at_separation(-deepest * k / levels);
+    CHECK(level.contacts == 0 && level.jumps > 0);
+    CHECK_RELATIVE(level.energy_lost, lost, 0.05);
+    CHECK_RELATIVE(level.least_force, least, 0.05);
+}
+
+// The energy of a few pixels by the shares f of their area that touch, which deform as springs of
+// the compliance S (1/f - 1) on the pixels: elastic energy minus w f. Its minimum is found by small
+// steps downhill from the last one.
+class Minimiser {
+public:
+    Minimiser(const HeightMap& map, double w) : map_(map), w_(w), f_(map.points(), 0.0) {
+        S_ = AdhesiveEdges::kRow * map.dx;
+    }
+    double force(double Z) {
+        for (int step = 0; step < 4000; ++step) {
+            solve(Z);
+            double most = 0;
+            for (const auto i : indices(f_)) {
+                const double t = f_[i] > 0 ? -p_[i] / f_[i] : gap(i, Z) / S_,
+                             release = std::copysign(t * t * S_ / (2 * w_), t);
+                if (f_[i] == 0 && !beside(i)) continue;
+                const double now = std::clamp(f_[i] + 0.1 * (1 - release), 0.0, 1.0);
+                most = std::max(most, std::abs(now - f_[i]));
+                f_[i] = now < 1e-9 ? 0 : now;
+            }
+            if (most < 1e-9) break;
+        }
+        solve(Z);
+        return map_.dx * map_.dx * std::accumulate(p_.begin(), p_.end(), 0.0);
+    }
+    void touch(std::size_t i) { f_[i] = 1; }
+
+private:
+    double clearance(std::size_t i) const { return map_(int(i) % map_.nx, int(i) / map_.nx); }
+    double K(std::size_t i, std::size_t j) const {
+        const int nx = map_.nx, di = int(i) % nx - int(j) % nx, dj = int(i) / nx - int(j) / nx;
+        return body_.under_pixel(di * map_.dx, dj * map_.dy, map_.dx, map_.dy);
+    }
+    double gap(std::size_t i, double Z) const {
+        double u = Z - clearance(i);
+        for (const auto j : indices(p_)) u += K(i, j) * p_[j];
+        return u;
+    }
+    bool beside(std::size_t i) const {
+        const int nx = map_.nx;
+        for (const auto j : indices(f_))
+            if (f_[j] > 0 && std::abs(int(i) % nx - int(j) % nx) < 2 &&
+                std::abs(int(i) / nx - int(j) / nx) < 2)
+                return true;
+        return false;
+    }
+    void solve(double Z) {
+        std::vector<std::size_t> in;
+        for (const auto i : indices(f_))
+            if (f_[i] > 0) in.push_back(i);
+        const std::size_t n = in.size();
+        std::vector<double> m(n * n), rest(n);
+        for (const auto a : indices(in)) {
+            rest[a] = clearance(in[a]) - Z;
+            for (const auto b : indices(in)) m[a * n + b] = K(in[a], in[b]);
+            m[a * n + a] += S_ * (1 / f_[in[a]] - 1);
+        }
+        p_.assign(f_.size(), 0.0);
+        const std::vector<double> p = solved(m, rest);
+        for (const auto a : indices(in)) p_[in[a]] = p[a];
+    }
+
+    const HeightMap& map_;
+    Substrate body_{1.0};
+    double w_, S_;
+    std::vector<double> f_, p_;
+};
+
+TEST(test_minimiser) {
+    for (unsigned seed = 0; seed < 12; ++seed) {
+        std::mt19937 generator(seed);
+        std::uniform_real_distribution<double> uniform(-1, 1);
+        std::array<double, 6> c;
+        for (double& value : c) value = uniform(generator);
+        const int n = 9;
+        const HeightMap map = height_map(n, n, 0.1, 0.1, [&](int i, int j) {
+            const double x = 0.1 * (i - 4), y = 0.1 * (j - 4);
+            return -0.5 * (x * x + y * y) + 0.01 * c[0] * std::sin(9 * x + 6 * c[1]) +
+                   0.01 * c[2] * std::sin(9 * y + 6 * c[3]) +
+                   0.01 * c[4] * std::sin(8 * x + 7 * y + 6 * c[5]);
+        });
+        const double w = 2e-4;
+        const auto contact = make_element_contact(map, flat_over(map), sharp(w));
+        Minimiser slow(map, w);
+        const double top = contact->first_touch();
+        std::size_t highest = 0;
+        for (std::size_t i = 0; i < map.points(); ++i)
+            if (map(int(i) % n, int(i) / n) == top) highest = i;
+        slow.touch(highest);
+        double largest = 0;
+        for (const double depth : {0.002, 0.008, 0.014, 0.02, 0.012, 0.004, -0.004, -0.008}) {
+            const Level level = contact->at_separation(top - depth);
+            const double force = slow.force(top - depth);
+            largest = std::max(largest, std::abs(force));
+            CHECK_CLOSE(level.force, force, 2e-3 * largest);
+        }
+    }
+}
+
+}  // namespace test_without_range
