@@ -151,20 +151,36 @@ void print_sticking(std::ostream& out, const RunFacts& run) {
     print_stickiness(out, run);
 }
 
-// Refuses adhesion that closes all gaps of the roughness, so that the contacts of asperities merge:
-// the work of adhesion is more than the elastic energy that flattens the roughness, for each unit
-// of area (E*/4) sigma^2 times the mean wavenumber <q> (Persson and Tosatti, 2001). The energy is
-// at most E* sigma h'/4, since <q>^2 <= <q^2>; with layers no such bound is known.
+// The work of adhesion that closes all gaps of the roughness, so that the contacts of asperities
+// merge, at most: the elastic energy that flattens the roughness, for each unit of area (E*/4)
+// sigma^2 times the mean wavenumber <q> (Persson and Tosatti, 2001), with <q>^2 <= <q^2>.
+double flattening_work(double E_star, double sigma, const Moments& theory) {
+    return 0.25 * E_star * sigma * theory.rms_slope();
+}
+
+// With layers no such bound is known.
 void require_separate_contacts(const PreparedFacts& facts) {
     if (!facts.theory || facts.indenter.layers.count > 0) return;
-    const double flat = 0.25 * facts.indenter.E_star * facts.sigma * facts.theory->rms_slope();
+    const double flat = flattening_work(facts.indenter.E_star, facts.sigma, *facts.theory);
     if (const double w = facts.settings.solids.adhesion; w >= flat)
         bad_input(
             format("solids%%adhesion = %g: more than the elastic energy that flattens the "
                    "roughness, at most E* sigma h'/4 = %.3g for each unit of area; the contacts of "
-                   "asperities merge, and asperities do not hold; give adhesion_range > 0 and "
-                   "solver%%model = 'elements'",
+                   "asperities merge, and asperities do not hold; give solver%%model = 'elements'",
                    w, flat));
+}
+
+// Without a range, `auto` leaves hard rough surfaces, whose contacts stay apart, to asperities:
+// edges of their small contacts would need fine grids.
+const char* why_asperities_adhere(const Case& c) {
+    const Case::Solids& s = c.solids;
+    if (s.adhesion_range > 0 || c.surface.source != Source::synthetic) return "";
+    const Spectrum spectrum = self_affine_spectrum(c);
+    double compliance = 0;
+    for (const int body : {0, 1}) compliance += (1 - s.nu[body] * s.nu[body]) / s.E[body];
+    const double flat =
+        flattening_work(1 / compliance, spectrum.sigma, theoretical_moments(spectrum));
+    return s.adhesion >= flat ? "" : "its adhesion leaves the contacts of asperities separate";
 }
 
 void require_feasible(const PreparedFacts& facts) {
@@ -212,6 +228,7 @@ const Physics kAdhesion = {
                   [](const Combination& c) { return c.selection == Selection::paper; }},
                  {"indentation%boundary", "", [](const Combination& c) { return c.line; }}},
     .check = check_adhesion,
+    .needs_asperities = why_asperities_adhere,
     .path = "attached spots (solids adhesion) remain attached until pull-off",
     .quantities = adhesion_quantities(),
     .pulls = true,
