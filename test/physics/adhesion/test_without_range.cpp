@@ -1,6 +1,5 @@
 // Elements that attract without a range (physics/adhesion/adhesive_edges.hpp), against Johnson,
-// Kendall and Roberts's sphere, Johnson's wave between flats, Guduru's wavy sphere and a slow
-// minimiser.
+// Kendall and Roberts's sphere, Johnson's wave between flats, and a slow minimiser.
 #include "check.hpp"
 #include "contact/make.hpp"
 #include "interaction/kernel.hpp"
@@ -147,59 +146,6 @@ TEST(test_wave) {
         }
         CHECK_CLOSE(level.least_force / (rows * h), truth, 2 * h * full);
     }
-}
-
-// Guduru's sphere with waves (J. Mech. Phys. Solids 55, 2007): r^2/2 + A (1 - cos(2 pi r/l)). The
-// path by the contact radius a is that of JKR for any profile s: the penetration without adhesion
-// is u(a) = a int_0^a s'(r)/sqrt(a^2 - r^2) dr, and the force 2 int_0^a u(a) - u(b) db. Edges jump
-// over the radii at which the approach decreases; the work of the loop is lost in these jumps.
-TEST(test_wavy_sphere) {
-    const Jkr smooth{1e-4};
-    const double l = 0.35 * smooth.at_rest(), A = 2e-4, end = 1.5 * smooth.at_rest();
-    constexpr int n = 4000, parts = 200;
-    std::vector<double> N(n), d(n);
-    double integral = 0, before = 0;
-    for (int i = 0; i < n; ++i) {
-        const double a = end * (i + 1) / n;
-        double u = 0;
-        for (int k = 0; k < parts; ++k) {
-            const double r = a * std::sin((k + 0.5) / parts * pi / 2);
-            u += a * pi / 2 / parts * (r + A * 2 * pi / l * std::sin(2 * pi * r / l));
-        }
-        integral += 0.5 * (u + before) * end / n;
-        before = u;
-        N[at(i)] = 2 * (a * u - integral) - std::sqrt(8 * pi * smooth.w * a * a * a);
-        d[at(i)] = u - std::sqrt(2 * pi * smooth.w * a);
-    }
-    double lost = 0, far = 0, least = 0;
-    for (const auto i : indices(d))
-        if (d[i] > far) {
-            lost += N[i] * (d[i] - far);
-            far = d[i];
-        }
-    const double deepest = far;
-    for (auto i = d.size(); i-- > 0;)
-        if (d[i] < far) {
-            lost -= N[i] * (far - d[i]);
-            far = d[i];
-            least = std::min(least, N[i]);
-        }
-    CHECK(lost > 1.5 * smooth.lost());  // with jumps on the way
-    const int points = 100;
-    const double h = 4 * smooth.at_rest() / points;
-    const HeightMap map = height_map(points, points, h, h, [=](int i, int j) {
-        const double r = h * std::hypot(i - 0.5 * (points - 1), j - 0.5 * (points - 1));
-        return -0.5 * r * r - A * (1 - std::cos(2 * pi * r / l));
-    });
-    const auto contact = make_element_contact(map, flat_over(map), sharp(smooth.w));
-    const int levels = 16;
-    Level level = contact->at_separation(1e-3);
-    for (int k = 0; k <= levels; ++k) level = contact->at_separation(-deepest * k / levels);
-    for (int k = levels; k >= -levels / 4; --k)
-        level = contact->at_separation(-deepest * k / levels);
-    CHECK(level.contacts == 0 && level.jumps > 0);
-    CHECK_RELATIVE(level.energy_lost, lost, 0.05);
-    CHECK_RELATIVE(level.least_force, least, 0.05);
 }
 
 // The energy of a few pixels by the shares f of their area that touch, which deform as springs of
