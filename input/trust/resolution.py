@@ -58,7 +58,7 @@ QUANTITIES = {
     "force": (),  # or the separation, times the stiffness over N
     "contact_area": ("area_fraction",),
     "contact_area_pixels": (),
-    "stiffness": ("conductance_length", "resistance"),
+    "stiffness": ("conductance_length", "conductance_per_area", "resistance"),
     "energy": (),
     "pressure_max": (),
     "gap_mean": (),

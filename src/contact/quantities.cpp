@@ -340,8 +340,6 @@ constexpr LevelQuantity kRows[] = {
      .comment = "conductance_length/A0: divided by the sum of the thermal (electrical) "
                 "resistivities the heat flux for a difference of temperatures of 1",
      .compute = compute_conductance_per_area,
-     .error_factor = 0.044,
-     .error_averages = true,
      .always = false,
      .statistics = true,
      .plain = "conductance per area"},

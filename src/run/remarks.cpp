@@ -129,6 +129,8 @@ struct Remarks {
     std::string finer_by(double times, const char* otherwise) const {
         if (!job.spectrum) return otherwise;
         const double points = std::ceil(1.05 * times * c.elements.points_per_wave);
+        constexpr double kMost = 64;  // elements%points_per_wave
+        if (!(points <= kMost)) return "; press harder, or accept the stated error";
         Case finer = c;
         finer.elements.points_per_wave = points;
         return format("; use elements%%points_per_wave = %g", points) +

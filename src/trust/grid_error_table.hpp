@@ -19,6 +19,7 @@ inline constexpr ResolutionError kResolutionErrors[] = {
     {"contact_area_pixels", 0.138, 1.5, 0, 0.551, {1, 1, 1}},
     {"stiffness", 0.0213, 2, 0, 0.0851, {2, 1.59, 1.63}},
     {"conductance_length", 0.0213, 2, 0, 0.0851, {2, 1.59, 1.63}},
+    {"conductance_per_area", 0.0213, 2, 0, 0.0851, {2, 1.59, 1.63}},
     {"resistance", 0.0213, 2, 0, 0.0851, {2, 1.59, 1.63}},
     {"energy", 0.0102, 2, 0.25, 0.0102, {1.5, 6.03, 6.57}},
     {"pressure_max", 0.0582, 1.5, 0, 0.233, {1.5, 14.5, 1}},
