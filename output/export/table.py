@@ -342,7 +342,8 @@ def with_errors(header, lines):
         if not error or not line[k]:
             return line[k]
         relative = header[error_of[k]].endswith(EXPECTED)
-        return f"{line[k]} +- " + (f"{100 * float(error):.2g} %" if relative else f"{float(error):.2g}")
+        size = f"{100 * float(error):.2g} %" if relative else f"{float(error):.2g}"
+        return f"{line[k]} +- {size}"
 
     shown = [k for k in range(len(header)) if k not in error_of.values()]
     return [header[k] for k in shown], [[cell(line, k) for k in shown] for line in lines]

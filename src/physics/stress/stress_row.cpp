@@ -124,12 +124,16 @@ public:
 
     bool record(const Level& level, std::vector<double>& curves) override {
         std::vector<LargestStress> all;
-        for (const double depth : depths_)
-            all.push_back(
-                std::isnan(level.force) ? LargestStress{}
-                : map_                  ? stress_below(*map_, level.pixels, body_, depth,
-                                                       stressed_window(*map_, level.pixels, body_.period, depth))
-                                        : stress_below(level, body_.nu, depth));
+        for (const double depth : depths_) {
+            LargestStress& largest = all.emplace_back();
+            if (std::isnan(level.force)) continue;
+            if (!map_) {
+                largest = stress_below(level, body_.nu, depth);
+                continue;
+            }
+            const GridWindow window = stressed_window(*map_, level.pixels, body_.period, depth);
+            largest = stress_below(*map_, level.pixels, body_, depth, window);
+        }
         for (const Measure& m : kMeasures)
             for (const auto part : kParts)
                 for (const LargestStress& s : all) curves.push_back(s.*m.largest.*part);
