@@ -188,8 +188,8 @@ constexpr LevelQuantity kRows[] = {
      .unit = "1",
      .meaning = "expected relative error of the force at the separation",
      .comment = "not exceeded in nine of ten cases. Asperities: difference from boundary elements "
-                "(calibrated: input/trust); elements: from the change of N on another grid and "
-                "from crests between the points; with adhesion from cohesive_resolution. Times "
+                "(calibrated: input/trust); elements: from border_share and from crests between "
+                "the points; with adhesion from cohesive_resolution. Times "
                 "|force| it is the error of the force. Missing without contact, under a prescribed "
                 "force, and where nothing was calibrated (doubts)",
      .always = false},

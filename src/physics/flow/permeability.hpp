@@ -36,9 +36,9 @@ double permeability_bytes(double points);
 double permeability_points(double bytes);
 
 // Solves for the permeability, and computes from its pressures the shear flow: by reciprocity
-// S_as = <(g/2) (e_a + grad P_a)_s>, P_a the pressure of the mean gradient along a, g the mean gap of two
-// open neighbours. `flow`: if not null, the magnitude of the flux at each point times
-// eta for a mean gradient 1 along x [length^3], row by row. Links so narrow that rounding hides
+// S_as = <(g/2) (e_a + grad P_a)_s>, P_a the pressure of the mean gradient along a, g the mean gap
+// of two open neighbours. `flow`: if not null, the magnitude of the flux at each point times eta
+// for a mean gradient 1 along x [length^3], row by row. Links so narrow that rounding hides
 // them beside the widest are left out. Throws Error(no_memory), and Error(internal) without
 // CHOLMOD or if the equations are not solved to 1e-11 of K.
 GapFlow permeability(const GapMap& map, std::vector<double>* flow = nullptr);
