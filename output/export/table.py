@@ -116,9 +116,12 @@ class Table:
     def _read(self, file, name, variable, good, every_depth):
         """Adds the columns of a variable, one for each component, with their errors; of depths all
         or the one where the mean is largest."""
-        sign = -1.0 if name in NEGATED else 1.0
+        every = -_numbers(variable) if name in NEGATED else _numbers(variable)
         unit = getattr(variable, "units", "1")
-        errors = [file.variables[n] for n in getattr(variable, "ancillary_variables", "").split()]
+        errors = [
+            (_numbers(file.variables[n]), getattr(file.variables[n], "units", "1"))
+            for n in getattr(variable, "ancillary_variables", "").split()
+        ]
         last = variable.dimensions[-1]
         if last == "step":
             parts = {"": ...}
@@ -126,12 +129,12 @@ class Table:
             depths = np.atleast_1d(_numbers(file.variables["depth"]))
             parts = {f"_at_{z:.4g}": (..., k) for k, z in enumerate(depths)}
             if not every_depth:
-                parts, largest = self._largest(_numbers(variable), good)
+                parts, largest = self._largest(every, good)
                 self._add(name + "_depth", depths[largest], file.variables["depth"].units)
         else:
             parts = {axis: (..., k) for k, axis in enumerate(AXES)}
         for suffix, part in parts.items():
-            values, many = self._values(sign * _numbers(variable)[part], good)
+            values, many = self._values(every[part], good)
             if not np.isfinite(values).any():
                 continue
             column = name + suffix
@@ -144,11 +147,11 @@ class Table:
                 self._add(column, mean, unit)
                 if many and (stderr > 1e-9 * abs(mean)).any():  # not a prescribed load
                     self._add(column + "_stderr", stderr, unit)
-            for error in errors:
-                of_part = part if error.ndim == variable.ndim else ...
-                expected = _mean(self._values(_numbers(error)[of_part], good)[0])[0]
+            for error, error_unit in errors:
+                of_part = part if error.ndim == every.ndim else ...
+                expected = _mean(self._values(error[of_part], good)[0])[0]
                 if np.isfinite(expected).any():
-                    self._add(column + EXPECTED, expected, getattr(error, "units", "1"))
+                    self._add(column + EXPECTED, expected, error_unit)
 
     def _largest(self, every, good):
         """({"": index of the depth of each level where the mean is largest}, these depths)."""
@@ -342,7 +345,8 @@ def with_errors(header, lines):
         if not error or not line[k]:
             return line[k]
         relative = header[error_of[k]].endswith(EXPECTED)
-        return f"{line[k]} +- " + (f"{100 * float(error):.2g} %" if relative else f"{float(error):.2g}")
+        size = f"{100 * float(error):.2g} %" if relative else f"{float(error):.2g}"
+        return f"{line[k]} +- {size}"
 
     shown = [k for k in range(len(header)) if k not in error_of.values()]
     return [header[k] for k in shown], [[cell(line, k) for k in shown] for line in lines]

@@ -8,8 +8,9 @@ from plot_style import GREY, amount, label
 
 def area(results, options):
     """A(N), beside the smooth sphere (Hertz) if it is the same for all results. A single result is
-    drawn with the smooth sphere or cylinder and the two regimes of the paper with their crossing, two flats with the theories of Persson, of Bush, Gibson and
-    Thomas, of Greenwood and Williamson."""
+    drawn with the smooth sphere or cylinder and the two regimes of the paper with their crossing,
+    two flats with the theories of Persson, of Bush, Gibson and Thomas, of Greenwood and
+    Williamson."""
     results = [
         r
         for r in results

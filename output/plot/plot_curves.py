@@ -312,8 +312,8 @@ def stiffness(results, options):
 
 
 def _holm(axis, results):
-    """Of a single result, Holm's constriction rho/(2 a) of a single round spot of the true area, of that of the smooth
-    indenter, and of the area N/H of bodies that yield."""
+    """Of a single result, Holm's constriction rho/(2 a) of a single round spot of the true area, of
+    that of the smooth indenter, and of the area N/H of bodies that yield."""
     if len(results) > 1:
         return
     result = results[0]

@@ -87,8 +87,8 @@ Case without_idle_keys(const Case& settings);
 // Every key with its value, as namelist input that restores the same bits.
 std::string effective_namelist(const Case& settings);
 
-// Describes all keys (empty name), a group, a group%key, or the keys and quantities of a level whose
-// name or meaning has this word. Throws Error(bad_input) if there is none.
+// Describes all keys (empty name), a group, a group%key, or the keys and quantities of a level
+// whose name or meaning has this word. Throws Error(bad_input) if there is none.
 std::string describe(std::string_view name);
 
 // The manual page rsc(1) in roff, composed of the texts of --help and --describe.

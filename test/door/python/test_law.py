@@ -386,42 +386,58 @@ class Interface(unittest.TestCase):
             self.assertAlmostEqual(float(plot_law.truncated(np.array([H]))[0]), gap, delta=1e-12)
             self.assertAlmostEqual(plot_law._above([H], 2)[0] / square, 1, delta=1e-4)
 
-    def test_bearing_and_particles(self):
-        """The examples, with laws that rsc computes; each checks its result."""
-        for program, text, flag, words in (
-            (
-                BEARING,
-                "&solids R=Infinity,Infinity / &solver model='elements' / "
-                "&surface L=0.2 sigma=4e-4 L_lambda_l=4 L_lambda_s=12 / &output flow=.true. / "
-                "&indentation boundary='periodic' levels=15,10,7,5,4,3.4,3,2.5,2,1.5,1,0.6,0.3 /",
-                "--lubrication",
-                "thick film over smooth faces",
-            ),
-            (
-                PARTICLES,
-                SURFACE + "&indentation levels=3,2.5,2,1.5,1,0.5,0,-1,-2 /",
-                "--text",
-                "1000 balls",
-            ),
-        ):
-            result, target = path("example"), os.path.join(FOLDER, "example.law")
-            rsc.Case(text).run(result)
-            self.assertEqual(run(result, flag, "-o", target), target + "\n")
-            done = subprocess.run([program, target], text=True, capture_output=True)
-            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            self.assertIn(words, done.stdout)
-            if program == BEARING:
-                table = os.path.join(FOLDER, "stribeck.txt")
-                with open(table, "w", encoding="utf-8") as out:
-                    out.write(done.stdout)
-                script = os.path.join(os.path.dirname(rsc.__file__), "..", "example", "bearing.py")
-                subprocess.run([sys.executable, script, table], check=True, capture_output=True)
-                self.assertTrue(os.path.exists(table.replace("txt", "png")))
-                import plot
+    def test_bearing_of_rough_faces(self):
+        """The example and its picture with a law that rsc computes; the example checks itself."""
+        result, target = path("rough_bearing"), os.path.join(FOLDER, "rough_bearing.law")
+        rsc.Case(
+            "&solids R=Infinity,Infinity / &solver model='elements' / "
+            "&surface L=0.2 sigma=4e-4 L_lambda_l=4 L_lambda_s=12 / &output flow=.true. / "
+            "&indentation boundary='periodic' levels=15,10,7,5,4,3.4,3,2.5,2,1.5,1,0.6,0.3 /"
+        ).run(result)
+        self.assertEqual(run(result, "--lubrication", "-o", target), target + "\n")
+        done = subprocess.run([BEARING, target], text=True, capture_output=True)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("thick film over smooth faces", done.stdout)
+        table = os.path.join(FOLDER, "stribeck.txt")
+        with open(table, "w", encoding="utf-8") as out:
+            out.write(done.stdout)
+        script = os.path.join(os.path.dirname(rsc.__file__), "..", "example", "bearing.py")
+        subprocess.run([sys.executable, script, table], check=True, capture_output=True)
+        self.assertTrue(os.path.exists(table.replace("txt", "png")))
 
-                with contextlib.redirect_stdout(io.StringIO()):
-                    plot.main([result, "--only", "law"])
-                self.assertTrue(os.path.exists(path("example_law").replace(".nc", ".png")))
+        import plot
+
+        with contextlib.redirect_stdout(io.StringIO()):
+            plot.main([result, "--only", "law"])
+        self.assertTrue(os.path.exists(path("rough_bearing_law").replace(".nc", ".png")))
+
+    def test_particles(self):
+        """The example, with a law that rsc computes; it checks its result."""
+        result, target = path("example"), os.path.join(FOLDER, "example.law")
+        rsc.Case(SURFACE + "&indentation levels=3,2.5,2,1.5,1,0.5,0,-1,-2 /").run(result)
+        self.assertEqual(run(result, "--text", "-o", target), target + "\n")
+        done = subprocess.run([PARTICLES, target], text=True, capture_output=True)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("1000 balls", done.stdout)
+
+    def test_bearing(self):
+        """The example, with faces whose flow is that of smooth ones at every gap: the thick film
+        is the closed form to the midpoint rule of 2000 points, dry contact has the friction of the
+        contacts (the example checks it)."""
+        target = os.path.join(FOLDER, "bearing.law")
+        with open(target, "w") as out:
+            out.write("# rsc law 1\n# column gap mm - logarithmic: mean gap\n")
+            out.write("# column pressure N.mm-2 exponential -: nominal pressure\n")
+            for name in ("pressure", "sliding"):
+                out.write(f"# column flow_factor_{name}_x 1 power-to-1 -: of smooth faces\n")
+            for gap in np.geomspace(1e-4, 1e-2, 20):
+                out.write(f"{gap} {2e3 * np.exp(-gap / 2e-4)} 1 1\n")
+        done = subprocess.run([BEARING, target], text=True, capture_output=True)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        thick = next(line for line in done.stdout.splitlines() if "thick film" in line)
+        film, shear = map(float, thick.split()[-2:])
+        self.assertLess(abs(film - 1), 1e-4, thick)  # printed to four places
+        self.assertLess(abs(shear - 1), 1e-4, thick)
 
 
 class Uinter(unittest.TestCase):
