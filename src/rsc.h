@@ -334,14 +334,15 @@ RSC_API int32_t rsc_surface_moments(const rsc_surface* surface, double* m0, doub
  * computed from second differences.
  *     asperities (out): the handle;
  *     surface: the surface;
- *     a_case: the case (asperities%curvature defines the radius), null for the defaults.
+ *     a_case: the case (asperities%curvature defines the radius), null for the defaults
+ *         and solver%model = 'asperities'.
  * With an asperities%law other than 'hertz', summits are located between grid points, and
  * curvatures and biharmonic are computed from wider stencils.
- * With solver%model = 'elements' in the case, or 'auto' where this chooses elements (as for the
- * defaults), the handle holds a copy of the whole surface and no
- * asperities; contacts created from it with such a case are solved by boundary elements. Their
- * spots are groups of edge-connected pixels; in place of an asperity index, rsc_contact_spots
- * returns the index (row*nx + column, from 0) of each spot's highest-pressure pixel.
+ * With solver%model = 'elements' in the case, or 'auto' (the default) where this chooses elements,
+ * the handle holds a copy of the whole surface and no asperities; contacts created from it with
+ * such a case are solved by boundary elements. Their spots are groups of edge-connected pixels; in
+ * place of an asperity index, rsc_contact_spots returns the index (row*nx + column, from 0) of each
+ * spot's highest-pressure pixel.
  * Errors: -1 null; -2 null, a surface without summits, or (with a law other than 'hertz') one
  *     synthesized with fewer than 4 points per lambda_s, for which rsc_asperities_make must be
  *     used; RSC_NO_MEMORY. */

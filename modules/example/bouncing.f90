@@ -21,7 +21,8 @@ program bouncing
   call get_command_argument(1, argument)
   if (argument /= '') read (argument, *) bounces
 
-  call options%read('&surface n=256, L_lambda_l=8, L_lambda_s=64, sigma=1.0e-3 / ' // &
+  call options%read('&solver model=''asperities'' / ' // &
+      '&surface n=256, L_lambda_l=8, L_lambda_s=64, sigma=1.0e-3 / ' // &
       '&solids E=210d3, 210d3, nu=0.3, 0.3, R=Infinity, 2.5 / &asperities law=''hertz'' /')
   call options%set('solver%tolerance', 1.0e-10_dp)
   call asperities%make(options)

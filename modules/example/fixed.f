@@ -27,7 +27,7 @@ C     Units: mm and N.
       CALL RSCCAS(ICASE, IERR)
       CALL CHECK('RSCCAS', IERR)
       CALL RSCRED(ICASE, '&surface n=256, L_lambda_l=8, L_lambda_s=64, '
-     1   //'sigma=0.01 /', IERR)
+     1   //'sigma=0.01 / &solver model=''asperities'' /', IERR)
       CALL CHECK('RSCRED', IERR)
       CALL RSCSET(ICASE, 'solver%tolerance', '1.0e-10', IERR)
       CALL CHECK('RSCSET', IERR)

@@ -27,8 +27,8 @@ int main(void) {
     printf("rsc %s\n", version);
     must(rsc_case_create(&options));
     must(rsc_case_read(options,
-                       "&surface n=512, L_lambda_l=8, L_lambda_s=128, sigma=0.005 / &solids "
-                       "E=70d3, 210d3, nu=0.33, 0.3 /"));
+                       "&solver model='asperities' / &surface n=512, L_lambda_l=8, "
+                       "L_lambda_s=128, sigma=0.005 / &solids E=70d3, 210d3, nu=0.33, 0.3 /"));
     must(rsc_asperities_make(&asperities, options, 1));
     must(rsc_asperities_count(asperities, &n));
     must(rsc_contact_create_from_case(&contact, asperities, options));

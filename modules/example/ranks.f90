@@ -19,7 +19,7 @@ program ranks
   load = size * load_per_patch
 
   call options%read('&surface n=256, L_lambda_l=8, L_lambda_s=64, sigma=0.005 /' // &
-                    ' &solids R=2*Infinity / &solver tolerance=1e-10 /')
+                    ' &solids R=2*Infinity / &solver model=''asperities'', tolerance=1e-10 /')
   call patch%make(options, realization=rank + 1)
   call contact%create_from_case(patch, options)
   touch = contact%first_touch()

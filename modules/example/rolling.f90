@@ -28,7 +28,7 @@ program rolling
   if (argument /= '') read (argument, *) steps
   call options%read('&surface n=256, L_lambda_l=8, L_lambda_s=64, sigma=1.0e-3 / ' // &
                     '&solids E=210d3, 210d3, nu=0.3, 0.3, R=Infinity, 2.5, friction=0.3 /' // &
-                    ' &solver tolerance=1d-11 / &asperities law=''hertz'' /')
+                    ' &solver model=''asperities'', tolerance=1d-11 / &asperities law=''hertz'' /')
   call asperities%make(options)
   call contact%create_from_case(asperities, options)
   call friction%create_from_case(contact, options)

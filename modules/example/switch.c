@@ -28,7 +28,8 @@ int main(void) {
     if (!radius) return 1;
     must(rsc_case_create(&options));
     must(rsc_case_read(options,
-                       "&surface n = 512, L_lambda_l = 8, L_lambda_s = 128, sigma = 1.0e-3 /"));
+                       "&solver model = 'asperities' / &surface n = 512, L_lambda_l = 8, "
+                       "L_lambda_s = 128, sigma = 1.0e-3 /"));
     must(rsc_asperities_make(&asperities, options, 1));
     must(rsc_contact_create(&contact, asperities, E_star, 2.5, 0.5, 0.5, options));
     printf(

@@ -14,7 +14,7 @@ program threads
   integer :: most
 
   call options%read('&surface n=512, L_lambda_l=16, L_lambda_s=128, sigma=0.005 / ' // &
-      '&solids R=Infinity, 0.5 / &solver tolerance=1e-9 /')
+      '&solids R=Infinity, 0.5 / &solver model=''asperities'', tolerance=1e-9 /')
   call asperities%make(options)
   most = max(4, omp_get_max_threads())
   call work(1, alone)

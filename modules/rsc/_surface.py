@@ -143,15 +143,16 @@ class Asperities(_Object):
     def find(cls, surface: Surface, case: Case | None = None) -> Asperities:
         """A surface for contacts by the solver%model of the case ('auto' as in the program): its
         points, or its summits as asperities%curvature and asperities%law say. surface: a Surface;
-        case: None for the defaults. Raises ArgumentError for a surface
-        without summits or one too coarse for the law, Error (no memory)."""
+        case: None for the defaults and the summits. Raises ArgumentError for a surface without
+        summits or one too coarse for the law, Error (no memory)."""
         return cls._make("rsc_asperities_find", surface, case)
 
     @classmethod
     def make(cls, case: Case | None = None, realization: int = 1) -> Asperities:
         """The surface `realization` of a case for contacts by its solver%model: its points, or its
-        summits, found without storing the surface. case: None for the defaults; realization: number of the surface. Raises
-        ArgumentError for keys that are refused, Error (no memory)."""
+        summits, found without storing the surface. case: None for the defaults; realization:
+        number of the surface. Raises ArgumentError for keys that are refused, Error (no
+        memory)."""
         return cls._make("rsc_asperities_make", case, realization)
 
     @classmethod

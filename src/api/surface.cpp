@@ -150,7 +150,8 @@ int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surface* surf
                             const rsc_case* a_case) {
     return constructed(2, asperities, "asperities", [&] {
         require(surface, 2, "surface");
-        const Case& settings = settings_of(a_case);
+        Case settings = settings_of(a_case);
+        if (!a_case) settings.solver.model = ModelKind::asperities;
         return share(make_surface_model(surface->surface, settings, threads_of(settings)));
     });
 }

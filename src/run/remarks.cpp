@@ -184,9 +184,10 @@ struct Remarks {
     void print_doubts() const {
         for (const auto k : indices(kCauseNames)) {
             const Cause cause{int(k)};
-            say([&](const LevelValues& l) { return (l.doubts & bit(cause)) != 0; },
-                words_of_doubts(bit(cause)) + " - " + sentence(cause, elements) + figure_of(cause) +
-                    remedy_of(cause));
+            const auto has = [&](const LevelValues& l) { return (l.doubts & bit(cause)) != 0; };
+            if (std::ranges::none_of(levels, has)) continue;
+            say(has, words_of_doubts(bit(cause)) + " - " + sentence(cause, elements) +
+                         figure_of(cause) + remedy_of(cause));
         }
         if (std::ranges::any_of(levels, [](const LevelValues& l) { return l.force != 0; })) return;
         out << "  no level reaches contact: ";

@@ -17,9 +17,9 @@ constexpr double kEdgeShare = 0.17;
 // q). That of A is 0.8 sqrt(q): the width of a contact in points is proportional to 1/sqrt(q).
 constexpr double kCrest = 0.35, kCrestArea = 0.8;
 
-// Straight parts of borders are shorter than this number of pixels, on average, in all rough
-// contacts of the study (input/trust/resolution.py), whose errors do not need the crests.
-constexpr double kStraight = 16;
+// Contacts whose straight borders are longer than this number of their widths lie on crests. Those
+// of summits are rounder, and their errors need no crests (input/trust/resolution.py).
+constexpr double kElongated = 3;
 
 constexpr int kRows = 16;  // that a thread takes at a time
 
@@ -101,10 +101,12 @@ GridError error_of_grid(const LevelValues& level, const GridBodies& bodies, doub
 
 GridError error_of_crests(const Level& level, double stiffness, const HeightMap& map,
                           const Indenter& indenter, const std::optional<Tensor>& curvature) {
-    // Mean length of the straight parts of borders, in pixels, weighted by their lengths.
-    const double straight = level.border_runs * level.border_runs *
-                            double(level.pixels.index.size()) / level.border_share;
-    if (!(straight > kStraight)) return {};
+    // Mean length of the straight parts of borders, in pixels, weighted by their lengths, and the
+    // width of a contact of this length.
+    const double pixels = double(level.pixels.index.size()),
+                 straight = level.border_runs * level.border_runs * pixels / level.border_share,
+                 width = pixels / level.contacts / straight;
+    if (!(straight > kElongated * width)) return {};
     double mean = 0;
     for (const auto c : indices(level.f))
         mean += level.f[c] / level.force *

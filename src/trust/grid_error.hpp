@@ -8,7 +8,7 @@
 #pragma once
 
 #include "contact/quantities.hpp"
-#include "physics/grid_bodies.hpp"
+#include "contact/grid_bodies.hpp"
 #include "physics/physics.hpp"
 #include "surface/surface.hpp"
 

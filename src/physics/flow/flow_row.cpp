@@ -51,7 +51,7 @@ void check_leak(const Case& settings, const Complain& complain) {
     if (!o.flow)
         complain({"output%leak_drop", "output%flow"}, "a leak rate needs output%flow = .true.");
     if (!o.leak_length || !o.leak_width || !(viscosity > 0))
-        complain({"output%leak_drop"},
+        complain({"output%leak_drop", "output%leak_length"},
                  "a leak rate needs output%leak_length, output%leak_width and solids%viscosity");
     if (!(*o.leak_drop[0] >= *o.leak_drop[1]))
         complain({"output%leak_drop"}, "the first pressure, at the inlet, must not be lower");

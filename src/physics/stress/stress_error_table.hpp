@@ -1,7 +1,7 @@
 // Written by input/trust/resolution.py from its study of grids four times finer; do not edit.
 #pragma once
 
-#include "physics/grid_bodies.hpp"
+#include "contact/grid_bodies.hpp"
 
 namespace rsc {
 

@@ -20,6 +20,7 @@ campaign() {
     cat > case.nml << END
 &run         realizations = $1  first_realization = 3 /
 &surface     n = 128  L_lambda_l = 8  L_lambda_s = 50  hurst = 0.7 /
+&solver      model = 'asperities' /
 &indentation steps = 20 /
 &output      file = 'out.nc'  map_cells = 20 /
 END
@@ -27,6 +28,7 @@ END
 study() {
     cat > case.nml << 'END'
 &surface     n = 128  L_lambda_l = 4  L_lambda_s = 32 /
+&solver      model = 'asperities' /
 &indentation steps = 8 /
 &output      file = 'out/rsc.nc'  map_cells = 10 /
 &study       surface%sigma = 0.005, 0.01, 0.02   run%realizations = 1, 5 /

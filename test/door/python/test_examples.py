@@ -51,7 +51,7 @@ class Spheres:
         )
 
 
-SMALL = "&surface n=256, L_lambda_l=8, L_lambda_s=64, sigma={} /"
+SMALL = "&solver model='asperities' / &surface n=256, L_lambda_l=8, L_lambda_s=64, sigma={} /"
 
 
 class Presses(unittest.TestCase):
@@ -64,6 +64,7 @@ class Presses(unittest.TestCase):
     def test_press(self):
         lines = printed("press")
         case = (
+            "&solver model='asperities' / "
             "&surface n=512, L_lambda_l=8, L_lambda_s=128, sigma=0.005 / "
             "&solids E=70d3, 210d3, nu=0.33, 0.3 /"
         )

@@ -21,7 +21,8 @@ program consumer
     error stop 'the force of Hertz'
   call contact%press(-1.0_dp, stat=stat, errmsg=errmsg)
   if (stat /= -2 .or. index(errmsg, 'force') == 0) error stop 'a negative force'
-  call options%read('&surface n=256 L_lambda_l=4 L_lambda_s=64 /')
+  call options%read('&solver model=''asperities'' / ' // &
+    '&surface n=256 L_lambda_l=4 L_lambda_s=64 /')
   call asperities%make(options)
   call contact%create_from_case(asperities, options)
   call contact%press(10.0_dp, Z0)
