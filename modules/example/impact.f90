@@ -24,11 +24,10 @@ program impact
   many = size(speeds)
   call get_command_argument(1, argument)
   if (argument /= '') read (argument, *) many
-  call options%read('&solver model=''asperities'' / ' // &
-                    '&surface n=256, L_lambda_l=8, L_lambda_s=64, sigma=1.0e-3 / ' // &
+  call options%read('&surface n=256, L_lambda_l=8, L_lambda_s=64, sigma=1.0e-3 / ' // &
                     '&solids E=210d3, 210d3, nu=0.3, 0.3, R=Infinity, 2.5, hardness=2.0d3 /' // &
                     ' &asperities law=''hertz'' /' // &
-                    ' &solver tolerance=1d-10 /')
+                    ' &solver model=''asperities'', tolerance=1d-10 /')
   call asperities%make(options)
   print '(a)', '  speed [mm/s]   restitution   deepest [um]   largest force [N]' // &
       '   plastic work/energy   energy kept to'
