@@ -37,7 +37,8 @@ def main(path):
             fontsize=8,
         )
     lines = axis.lines + other.lines
-    axis.legend(lines, [line.get_label() for line in lines], fontsize=8, loc="center left")
+    names = [line.get_label() for line in lines]
+    axis.legend(lines, names, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1), ncol=2)
     target = os.path.splitext(path)[0] + ".png"
     figure.savefig(target, dpi=150)
     print(target)
