@@ -131,8 +131,8 @@ struct LevelValues {
     double shear_xy = kNotComputed, shear_yx = kNotComputed;
     double coarse_shear_x = kNotComputed, coarse_shear_y = kNotComputed;
     double pressure_factor_x = kNotComputed, pressure_factor_y = kNotComputed;  // 12 K/h^3
-    double shear_factor_x = kNotComputed, shear_factor_y = kNotComputed;  // (h - 2 S)/sigma
-    double leak_rate = kNotComputed;  // [length^3/time]
+    double shear_factor_x = kNotComputed, shear_factor_y = kNotComputed;        // (h - 2 S)/sigma
+    double leak_rate = kNotComputed;                                            // [length^3/time]
     std::int32_t jumps = 0;             // number of jumps since the previous level
     std::int32_t plastic_contacts = 0;  // yielding contacts at this level
     double time = kNotComputed;         // time of the level, relaxing bodies [time]

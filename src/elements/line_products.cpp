@@ -76,10 +76,10 @@ private:
         products_;
 };
 
-// What images of a unit pressure on a pixel add to the same forces at its middle, to second order in
-// the sides (across, along): (across^2 dxx + along^2 dyy)/24 of 1/d times the area, for the images
-// beyond the first `exact`. From the `summed`-th image on by their integral. The next order is below
-// 1e-11 of the pixel's own deflection where images are farther than kFar sides.
+// What images of a unit pressure on a pixel add to the same forces at its middle, to second order
+// in the sides (across, along): (across^2 dxx + along^2 dyy)/24 of 1/d times the area, for the
+// images beyond the first `exact`. From the `summed`-th image on by their integral. The next order
+// is below 1e-11 of the pixel's own deflection where images are farther than kFar sides.
 double spread_of_far_images(double x, double y, double L, int exact, double across, double along) {
     const double xx = across * across / 24, yy = along * along / 24;
     const int summed = exact + 24;

@@ -7,8 +7,8 @@
 // errors of their own.
 #pragma once
 
-#include "contact/quantities.hpp"
 #include "contact/grid_bodies.hpp"
+#include "contact/quantities.hpp"
 #include "physics/physics.hpp"
 #include "surface/surface.hpp"
 

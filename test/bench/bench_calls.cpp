@@ -22,7 +22,9 @@ void calls(const char* law, double step, bool force) {
     rsc_asperities* asperities = nullptr;
     rsc_contact* contact = nullptr;
     check(rsc_case_create(&c));
-    check(rsc_case_read(c, (std::string("&solver model = 'asperities' / &asperities law = '") + law + "' /").c_str()));
+    check(rsc_case_read(
+        c,
+        (std::string("&solver model = 'asperities' / &asperities law = '") + law + "' /").c_str()));
     check(rsc_asperities_make(&asperities, c, 1));
     check(rsc_contact_create_from_case(&contact, asperities, c));
     double N = 0, Z0 = 0.0173, x = 0, y = 0;

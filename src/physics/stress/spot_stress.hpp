@@ -14,9 +14,9 @@ struct SpotPressures {
 };
 
 // For stresses at `depth` [length]. Pixels are a twelfth of the mean radius of the spots, weighted
-// by their forces, or a sixteenth of the depth, or as small as 4 million of them permit. With a finite
-// period the grid is the rectangle `cell`, otherwise it reaches beyond the spots as far as their
-// largest stresses may be.
+// by their forces, or a sixteenth of the depth, or as small as 4 million of them permit. With a
+// finite period the grid is the rectangle `cell`, otherwise it reaches beyond the spots as far as
+// their largest stresses may be.
 SpotPressures pressures_of_spots(const Level& level, const Period& period, const Rectangle& cell,
                                  double depth);
 

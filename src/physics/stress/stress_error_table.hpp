@@ -5,9 +5,10 @@
 
 namespace rsc {
 
-// Expected relative errors of the largest stresses at a depth of d pixels: factor border_share^power (1 + 2
-// d)^-deeper; of the tension, which may vanish, relative to von Mises's stress. The tension behind
-// the edge of a sliding contact rises like the root of the distance, and so does its own error.
+// Expected relative errors of the largest stresses at a depth of d pixels: factor
+// border_share^power (1 + 2 d)^-deeper; of the tension, which may vanish, relative to the von Mises
+// stress. The tension behind the edge of a sliding contact rises like the root of the distance, and
+// so does its own error.
 struct StressError {
     double factor, power, deeper;
     ClassFactors factors;

@@ -254,8 +254,8 @@ TEST(hertz_line_that_repeats_along_its_axis) {
 }
 
 // One spot, p0 = 1 over a = 1. Huber's solution (nu = 0.3): von Mises's stress is largest at the
-// depth 0.48, tensions at small depths beyond the rim. Two flats have the same stresses wherever the
-// period begins, and the mean pressure.
+// depth 0.48, tensions at small depths beyond the rim. Two flats have the same stresses wherever
+// the period begins, and the mean pressure.
 TEST(spots_of_asperities) {
     Level level;
     level.add_contact(0, 0.3, -0.2, 2 * pi / 3, 1, 0);

@@ -34,7 +34,9 @@ int main(int argc, char** argv) {
           "destroy");
 
     check(rsc_case_create(&options) == 0, "case");
-    check(rsc_case_read(options, "&solver model='asperities' / &surface n=256 L_lambda_l=4 L_lambda_s=64 /") == 0,
+    check(rsc_case_read(
+              options,
+              "&solver model='asperities' / &surface n=256 L_lambda_l=4 L_lambda_s=64 /") == 0,
           "case from text");
     check(rsc_surface_synthesize(&surface, options, 1) == 0, "synthesize");
     check(rsc_asperities_find(&asperities, surface, options) == 0, "find");
