@@ -486,7 +486,7 @@ def fit_stresses(o, rows):
         write_table(o.stress_table, start, [f"{start} = {values};"])
 
 
-def write_table(o.stress_table, start, lines):
+def write_table(path, start, lines):
     """Replaces a definition of the table."""
     text = path.read_text()
     first = text.index(start)

@@ -121,6 +121,13 @@ class Readme(unittest.TestCase):
                 docutils.core.publish_doctree(text, settings_overrides=settings)
                 self.assertEqual(told.getvalue(), "", page)
 
+    def test_scripts(self):
+        """Every script is Python; the slow studies are run by no test."""
+        for folder in ("input", "modules", "output", "test"):
+            for path in glob.glob(os.path.join(PROJECT, folder, "**", "*.py"), recursive=True):
+                with self.subTest(path=path), open(path, encoding="utf-8") as file:
+                    compile(file.read(), path, "exec")
+
     def test_names(self):
         """Every file that src/README, src/THEORY.rst or a comment names exists, and every section
         of src/THEORY.rst."""
