@@ -48,7 +48,7 @@ from trust import band_noise, write_map
 KINDS = (
     *("ball", "flat", "line", "smooth", "map", "hard", "mapflat", "edge", "instrument", "worn"),
 )
-NOT_FITTED = ("instrument", "worn")
+NOT_FITTED = ("worn",)
 E, NU = 1.0e5, 0.3
 E_STAR = E / (2 * (1 - NU**2))
 FINER = 4
@@ -354,7 +354,7 @@ def report(name, within):
 POWERS = (1.0, 1.5, 2.0)
 AVERAGING = (0.0, 0.25, 0.5)
 RUNS = (0.0, 0.5, 1.0, 2.0, 4.0)  # c over k
-MEASURED = (1.0, 1.5, 2.0)
+MEASURED = (1.0, 1.5, 2.0, 3.0, 4.0)
 DEEPER = (0.5, 0.75, 1.0, 1.5)
 READ_KINDS = ("map", "mapflat", "instrument")
 # Shares of levels within the stated error, of all and of each kind. More than nine in ten, because

@@ -102,6 +102,11 @@ GapFlow coarse_flow(const GapMap& map) {
     return product;
 }
 
+// The value on ever finer grids, from those on the grid and on every second point of it.
+double extrapolated(double fine, double coarse, double power) {
+    return fine > 0 && coarse > 0 ? fine * std::pow(fine / coarse, power) : fine;
+}
+
 // Those of Patir and Cheng, of the mean gap with its closed parts, and the rms height of the map.
 void add_flow_factors(LevelValues& level, const HeightMap& map) {
     const double h = level.gap_mean;
@@ -119,14 +124,13 @@ void add_flow_factors(LevelValues& level, const HeightMap& map) {
 }  // namespace
 
 double permeability_error(const LevelValues& level, std::size_t component) {
-    // Holds for 90 % of 48 values of eight surfaces at A/A0 below 0.3, against grids three times
-    // finer; stated over true is 1.6 in the median (input/trust/permeability.py).
-    constexpr double part = 0.63;
     if (component > 1) return kNotComputed;
     const double K = component == 0 ? level.permeability_xx : level.permeability_yy,
                  coarse =
                      component == 0 ? level.coarse_permeability_x : level.coarse_permeability_y;
-    return K > 0 && coarse > 0 ? part * std::abs(std::log(K / coarse)) : kNotComputed;
+    return K > 0 && coarse > 0
+               ? kPermeabilityPart / (1 + kPermeabilityPower) * std::abs(std::log(K / coarse))
+               : kNotComputed;
 }
 
 double hydraulic_gap_error(const LevelValues& level, std::size_t component) {
@@ -134,11 +138,11 @@ double hydraulic_gap_error(const LevelValues& level, std::size_t component) {
 }
 
 double shear_flow_error(const LevelValues& level, std::size_t component) {
-    constexpr double part = 0.36;  // by the same script
     if (component > 1) return kNotComputed;
     const double S = component == 0 ? level.shear_xx : level.shear_yy,
                  coarse = component == 0 ? level.coarse_shear_x : level.coarse_shear_y;
-    return S > 0 && coarse > 0 ? part * std::abs(std::log(S / coarse)) : kNotComputed;
+    return S > 0 && coarse > 0 ? kShearPart / (1 + kShearPower) * std::abs(std::log(S / coarse))
+                               : kNotComputed;
 }
 
 double shear_factor_error(const LevelValues& level, std::size_t component) {
@@ -163,22 +167,21 @@ const char* compute_permeability(LevelSource& source) {
     if (!has_permeability()) return "this rsc was built without CHOLMOD";
     LevelValues& level = source.level;
     if (!std::isnan(level.permeability_xx)) return nullptr;
-    const GapFlow flow = permeability(gap_of(source), source.for_fields ? &source.flux : nullptr);
-    const auto& [k, s] = flow;
-    level.permeability_xx = k.xx;
-    level.permeability_yy = k.yy;
+    const auto& [k, s] = permeability(gap_of(source), source.for_fields ? &source.flux : nullptr);
+    const GapFlow coarse = coarse_flow(gap_of(source));
+    level.permeability_xx = extrapolated(k.xx, coarse.K.xx, kPermeabilityPower);
+    level.permeability_yy = extrapolated(k.yy, coarse.K.yy, kPermeabilityPower);
     level.permeability_xy = k.xy;
-    level.shear_xx = s.xx;
-    level.shear_yy = s.yy;
+    level.shear_xx = extrapolated(s.xx, coarse.S.xx, kShearPower);
+    level.shear_yy = extrapolated(s.yy, coarse.S.yy, kShearPower);
     level.shear_xy = s.xy;
     level.shear_yx = s.yx;
-    const GapFlow coarse = coarse_flow(gap_of(source));
     level.coarse_permeability_x = coarse.K.xx;
     level.coarse_permeability_y = coarse.K.yy;
     level.coarse_shear_x = coarse.S.xx;
     level.coarse_shear_y = coarse.S.yy;
-    level.hydraulic_gap_x = std::cbrt(12 * k.xx);
-    level.hydraulic_gap_y = std::cbrt(12 * k.yy);
+    level.hydraulic_gap_x = std::cbrt(12 * level.permeability_xx);
+    level.hydraulic_gap_y = std::cbrt(12 * level.permeability_yy);
     add_flow_factors(level, *source.map);
     return nullptr;
 }

@@ -32,8 +32,16 @@ const char* compute_gap(LevelSource& source);
 const char* compute_permeability(LevelSource& source);
 const char* compute_leak(LevelSource& source);
 
-// Expected relative errors of K and S along x and y, of the hydraulic gaps and of the shear flow
-// factors: from the same gap on every second point (LevelQuantity::own_error).
+// A level's K and S along x and y are extrapolated, from those of its gap on the points and on every
+// second point (K_c, S_c): K (K/K_c)^kPermeabilityPower, and S alike. Links between two points are
+// too narrow, so that K is nearly always too small (input/trust/permeability.py). Not for odd
+// numbers of points or where every second point leaves no way through.
+inline constexpr double kPermeabilityPower = 0.52, kShearPower = 0.35;
+
+// Expected relative errors of K and S along x and y, kPermeabilityPart |ln(K/K_c)| of the K before
+// extrapolation and S alike; of the hydraulic gaps and of the shear flow factors
+// (LevelQuantity::own_error).
+inline constexpr double kPermeabilityPart = 0.32, kShearPart = 0.17;
 double permeability_error(const LevelValues& level, std::size_t component);
 double hydraulic_gap_error(const LevelValues& level, std::size_t component);
 double shear_flow_error(const LevelValues& level, std::size_t component);

@@ -120,7 +120,8 @@ std::vector<LevelQuantity> flow_quantities() {
          .meaning = "permeability of the gap, K",
          .comment =
              "flux per width q = -(K/eta) grad P of a fluid of viscosity eta; a parallel gap h "
-             "has h^3/12. A seal of length l along x and width w leaks w K_xx/(eta l) times the "
+             "has h^3/12. Extrapolated from the gap on the points and on every second one. A seal "
+             "of length l along x and width w leaks w K_xx/(eta l) times the "
              "pressure drop",
          .compute = compute_permeability,
          .in_run = flow_asked,

@@ -13,8 +13,8 @@ struct StressError {
     double factor, power, deeper;
     ClassFactors factors;
 };
-inline constexpr StressError kMisesError = {0.134, 1, 0.75, {1.5, 4.81, 3.12}};
-inline constexpr StressError kShearError = {0.133, 1, 0.75, {1.5, 5.49, 3.52}};
+inline constexpr StressError kMisesError = {0.185, 1, 1, {1.5, 4.73, 2.48}};
+inline constexpr StressError kShearError = {0.133, 1, 0.75, {2, 5.49, 3.52}};
 inline constexpr StressError kTensionError = {0.114, 1, 1.5, {1, 1, 1.15}};
 inline constexpr StressError kSlidingEdgeError = {0.466, 0.5, 1, {1, 1, 1}};
 
