@@ -8,6 +8,7 @@ import contextlib
 import io
 import math
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -438,6 +439,78 @@ class Interface(unittest.TestCase):
         film, shear = map(float, thick.split()[-2:])
         self.assertLess(abs(film - 1), 1e-4, thick)  # printed to four places
         self.assertLess(abs(shear - 1), 1e-4, thick)
+
+
+BLOCKS = """*NODE, NSET=ALL
+{nodes}
+*ELEMENT, TYPE=C3D8, ELSET=LOWER
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*ELEMENT, TYPE=C3D8, ELSET=UPPER
+2, 9, 10, 11, 12, 13, 14, 15, 16
+*NSET, NSET=BOTTOM
+1, 2, 3, 4
+*NSET, NSET=TOP
+13, 14, 15, 16
+*NSET, NSET=ABOVE, GENERATE
+9, 16
+*SURFACE, NAME=SLAVE, TYPE=ELEMENT
+2, S1
+*SURFACE, NAME=MASTER, TYPE=ELEMENT
+1, S2
+*MATERIAL, NAME=BLOCK
+*ELASTIC
+1e6, 0.
+*CONDUCTIVITY
+{conductivity}
+*SOLID SECTION, ELSET=LOWER, MATERIAL=BLOCK
+*SOLID SECTION, ELSET=UPPER, MATERIAL=BLOCK
+{interaction}
+*CONTACT PAIR, INTERACTION=ROUGH, TYPE=SURFACE TO SURFACE
+SLAVE, MASTER
+*INITIAL CONDITIONS, TYPE=TEMPERATURE
+ALL, 20.
+*BOUNDARY
+BOTTOM, 1, 3
+ABOVE, 1, 2
+*STEP
+*COUPLED TEMPERATURE-DISPLACEMENT, STEADY STATE
+0.1, 1.
+*BOUNDARY
+BOTTOM, 11, 11, 0.
+TOP, 11, 11, 100.
+*DLOAD
+UPPER, P2, {pressure}
+*NODE PRINT, NSET=BOTTOM, TOTALS=ONLY
+RFL
+*END STEP
+"""
+
+
+@unittest.skipUnless(shutil.which("ccx"), "no CalculiX (ccx)")
+class Heat(unittest.TestCase):
+    """Two blocks of side 1 with a rough interface, by CalculiX: thermal resistances in series."""
+
+    def test_two_blocks(self):
+        pressure, conductivity = 4.0, 50.0
+        loads = np.where(Interface.LOAD > 0, Interface.LOAD, np.nan)
+        resistance = ("realization step", 0.25 / (14 * loads), "K W-1")
+        file = Interface().flats("blocks", resistance=resistance)
+        corners = ((0, 0), (1, 0), (1, 1), (0, 1))
+        nodes = [(x, y, z) for z in (0, 1, 1, 2) for x, y in corners]
+        text = BLOCKS.format(
+            nodes="\n".join(f"{k}, {x}, {y}, {z}." for k, (x, y, z) in enumerate(nodes, 1)),
+            interaction=run(file, "--calculix", "--conductance").strip(),
+            conductivity=conductivity,
+            pressure=pressure,
+        )
+        with open(os.path.join(FOLDER, "blocks.inp"), "w", encoding="utf-8") as deck:
+            deck.write(text)
+        done = subprocess.run(["ccx", "blocks"], cwd=FOLDER, text=True, capture_output=True)
+        self.assertEqual(done.returncode, 0, done.stdout[-2000:])
+        with open(os.path.join(FOLDER, "blocks.dat"), encoding="utf-8") as out:
+            flux = abs(float(out.read().split()[-1]))
+        expected = 100 / (2 / conductivity + 1 / (8 * pressure))
+        self.assertLess(abs(flux / expected - 1), 1e-5)  # printed to seven places
 
 
 class Uinter(unittest.TestCase):
