@@ -11,6 +11,23 @@ double mean_radius(const Level& level) {
            sum_of(level.f);
 }
 
+// Summits that are points of a grid of step h lie below the tops between them: by (u^2 + v^2) h^2/2r
+// for a top beside the point by u h, v h, each from -1/2 to 1/2 at random. Relative to Hertz's
+// penetration a^2/r this is h^2/a^2 times 1/12 on average, 0.147 or less in nine of ten cases; by n
+// contacts it is averaged.
+AsperityError below_tops(const Level& level, double h) {
+    constexpr double average = 1.0 / 12, most = 0.147;
+    const double part = average + (most - average) / std::sqrt(double(std::max(level.contacts, 1)));
+    AsperityError error{0, 0};
+    for (const auto k : indices(level.f)) {
+        const double deeper = part * h * h / (level.a[k] * level.a[k]),
+                     share = level.f[k] / level.force;
+        error.force += share * (std::pow(1 + deeper, 1.5) - 1);
+        error.area += share * deeper;
+    }
+    return error;
+}
+
 // Null: the law was not compared with elements.
 const LawError* errors_of(LawKind kind) {
     const std::string_view name = kLawNames[at(kind)];
@@ -31,7 +48,10 @@ AsperityError asperity_error(const Level& level, const SolverOptions& options) {
         return law->errors[what][bin] * (options.surface.measured ? law->of_files[what] : 1.0) *
                (level.plastic_contacts > 0 ? law->of_yielding[what] : 1.0);
     };
-    return {error(0), error(1)};
+    const AsperityError grid = options.law == LawKind::hertz
+                                   ? below_tops(level, options.surface.grid_step)
+                                   : AsperityError{0, 0};
+    return {error(0) + grid.force, error(1) + grid.area};
 }
 
 double least_stated_error(LawKind law) {

@@ -123,14 +123,27 @@ void add_flow_factors(LevelValues& level, const HeightMap& map) {
 
 }  // namespace
 
+namespace {
+
+// Where more of the area touches, the gap nearly seals, and K depends on single constrictions,
+// however narrow: no error is known (input/trust/permeability.py has up to 0.3).
+constexpr double kSealing = 0.3;
+
+// From the change from the coarse grid.
+double error_of_change(const LevelValues& level, double value, double coarse, double part) {
+    return value > 0 && coarse > 0 && !(level.area_fraction > kSealing)
+               ? part * std::abs(std::log(value / coarse))
+               : kNotComputed;
+}
+
+}  // namespace
+
 double permeability_error(const LevelValues& level, std::size_t component) {
     if (component > 1) return kNotComputed;
     const double K = component == 0 ? level.permeability_xx : level.permeability_yy,
                  coarse =
                      component == 0 ? level.coarse_permeability_x : level.coarse_permeability_y;
-    return K > 0 && coarse > 0
-               ? kPermeabilityPart / (1 + kPermeabilityPower) * std::abs(std::log(K / coarse))
-               : kNotComputed;
+    return error_of_change(level, K, coarse, kPermeabilityPart / (1 + kPermeabilityPower));
 }
 
 double hydraulic_gap_error(const LevelValues& level, std::size_t component) {
@@ -141,8 +154,7 @@ double shear_flow_error(const LevelValues& level, std::size_t component) {
     if (component > 1) return kNotComputed;
     const double S = component == 0 ? level.shear_xx : level.shear_yy,
                  coarse = component == 0 ? level.coarse_shear_x : level.coarse_shear_y;
-    return S > 0 && coarse > 0 ? kShearPart / (1 + kShearPower) * std::abs(std::log(S / coarse))
-                               : kNotComputed;
+    return error_of_change(level, S, coarse, kShearPart / (1 + kShearPower));
 }
 
 double shear_factor_error(const LevelValues& level, std::size_t component) {
