@@ -186,6 +186,9 @@ def maps(results, options):
             text = "area fraction $A'$" if variable == "map_area_fraction" else "pressure $p$"
             text += {"pixels": ", means of cells", "spots": ", means of spots"}.get(drawn[0][0], "")
             dimension = panels[0][0].dimension(variable)
+            if extend != "neither":
+                top = max(np.abs(values).max() for _, values, _ in drawn)
+                text += f", up to {amount(top, dimension)}"
             how = dict(extend=extend, pad=0.01, aspect=16 if one else 30, fraction=0.08)
             beside = list(axes)
             if first == "contact":  # the bar of all rows, so that they remain one below the other

@@ -59,6 +59,7 @@ plt.rcParams.update(
 _SHOWN = {
     "m": [(1e-9, "nm"), (1e-6, "µm"), (1e-3, "mm"), (1.0, "m")],
     "m2": [(1e-18, "nm²"), (1e-12, "µm²"), (1e-6, "mm²"), (1.0, "m²")],
+    "m3 s-1": [(1e-18, "µm³/s"), (1e-12, "nl/s"), (1e-9, "mm³/s"), (1e-6, "cm³/s")],
     "m4": [(1e-36, "nm⁴"), (1e-24, "µm⁴"), (1e-12, "mm⁴"), (1.0, "m⁴")],
     "m-1": [(1.0, "1/m"), (1e3, "1/mm"), (1e6, "1/µm"), (1e9, "1/nm")],
     "m-2": [(1.0, "1/m²"), (1e6, "1/mm²"), (1e12, "1/µm²"), (1e18, "1/nm²")],
@@ -182,8 +183,9 @@ class _LogTicks(LogFormatterSciNotation):
         return f"$10^{{{power}}}$" if abs(lead - 1) < 1e-6 else f"${lead:.3g}\\times10^{{{power}}}$"
 
 
-def label(axis, which, text, dimension=""):
-    """Writes the label of an axis ('x' or 'y') and its numbers in a unit suitable for its range."""
+def label(axis, which, text, dimension="", like=None):
+    """Writes the label of an axis ('x' or 'y') and its numbers in a unit suitable for its range, or
+    for that of another axis of the same quantity."""
     side = getattr(axis, which + "axis")
     within = []
     for of in (
@@ -194,7 +196,10 @@ def label(axis, which, text, dimension=""):
         within += (
             [max(lo, drawn.min()), min(hi, drawn.max())] if np.isfinite(drawn).all() else [lo, hi]
         )
-    size, unit = (middle if side.get_scale() == "log" else fitting)(dimension, within)
+    if like:
+        within = getattr(like, f"get_{which}lim")()
+    log = side.get_scale() == "log" and not like
+    size, unit = (middle if log else fitting)(dimension, within)
     side.set_label_text(text + (f" [{unit}]" if unit else ""))
     if side.get_scale() == "log":
         for setter in (side.set_major_formatter, side.set_minor_formatter):
