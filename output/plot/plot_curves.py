@@ -114,7 +114,10 @@ def error_band(page, axis, x, y, off, text, **looks):
         axis.dataLim.set(limits)
         for end in ends:
             axis.update_datalim(np.column_stack([x, np.clip(end, y - size, y + size)]))
-        page.entry(text, lw=5, **looks)
+        if text:
+            page.entry(text, lw=5, **looks)
+        else:
+            page.entry("bands: expected error of the model", color=GREY, lw=5, alpha=0.25)
 
 
 def _fill(axis, x, low, high, **looks):

@@ -58,8 +58,7 @@ def radial(results, options):
         label(axis, "x", "distance from the tip $r$", results[0].dimension("radius"))
     if not pulls:
         page.axes[0].set_ylim(bottom=0)
-    for axis in page.axes:
-        like = page.axes[0]
+    for axis, like in zip(page.axes, (None, page.axes[0])):
         label(axis, "y", "pressure $p$", results[0].dimension("radial_pressure"), like)
     return page.finish(
         title(results, "Radial mean of the pressure" + (f" at {common}" if common else ""))

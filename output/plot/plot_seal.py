@@ -63,7 +63,7 @@ def _leak(page, axis, results, looks):
         pressure, rate = result.mean("pressure"), result.mean("leak_rate")
         curve(page, axis, result, (*look[:2], None), pressure, rate, "leak_rate", alone=False)
     axis.set(xscale="log", yscale="log", xlim=page.axes[0].get_xlim())
-    label(axis, "x", "nominal pressure $p$", results[0].dimension("pressure"))
+    label(axis, "x", "nominal pressure $p$", results[0].dimension("pressure"), page.axes[0])
     label(axis, "y", "leak rate", results[0].dimension("leak_rate"))
 
 

@@ -109,6 +109,13 @@ def _keys(results):
     return (keys, texts, None, None) if len(keys) == 2 and len(results) >= 4 else None
 
 
+def _more_even(values, than):
+    """True if the steps between values differ less than those of others, relative to their
+    mean."""
+    steps, others = np.diff(values), np.diff(than)
+    return np.std(steps) / np.mean(steps) < np.std(others) / np.mean(others) - 1e-9
+
+
 def _curves(page, axis, panel, results, keys, texts, along, others):
     """A quantity against the key of numbers, a curve for each set of values of the other keys, with
     the expected error as a band and the standard error as bars."""
@@ -118,14 +125,13 @@ def _curves(page, axis, panel, results, keys, texts, along, others):
         at = [k for k in np.argsort(numbers, kind="stable") if others[k] == other]
         x, y = numbers[at], panel.values[at]
         axis.plot(x, y, marker, ls=line, color=colour, ms=3.5, label=other or None)
-        text = "expected error" + (f", {other}" if len(shown) > 1 else "")
         if panel.errors[at].any():  # otherwise the bars show it
-            error_band(page, axis, x, y, panel.expected[at], text, color=colour, alpha=0.15)
+            error_band(page, axis, x, y, panel.expected[at], None, color=colour, alpha=0.15)
         errors = panel.errors[at] if panel.errors[at].any() else panel.expected[at]
         if (errors > 0).any():
             bars(page, axis, x, y, errors, results[at[0]], colour)
     values = sorted(set(numbers))
-    if values[0] > 0 and values[-1] > 8 * values[0] and len(values) > 2:
+    if values[0] > 0 and len(values) > 2 and _more_even(np.log(values), values):
         axis.set_xscale("log")
     label(axis, "x", axis_label(keys[along], results[0]))
     if len(values) <= 5:  # the values themselves

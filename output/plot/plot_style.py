@@ -185,7 +185,7 @@ class _LogTicks(LogFormatterSciNotation):
 
 def label(axis, which, text, dimension="", like=None):
     """Writes the label of an axis ('x' or 'y') and its numbers in a unit suitable for its range, or
-    for that of another axis of the same quantity."""
+    in that of another axis of the same quantity."""
     side = getattr(axis, which + "axis")
     within = []
     for of in (
@@ -196,10 +196,10 @@ def label(axis, which, text, dimension="", like=None):
         within += (
             [max(lo, drawn.min()), min(hi, drawn.max())] if np.isfinite(drawn).all() else [lo, hi]
         )
+    size, unit = (middle if side.get_scale() == "log" else fitting)(dimension, within)
     if like:
-        within = getattr(like, f"get_{which}lim")()
-    log = side.get_scale() == "log" and not like
-    size, unit = (middle if log else fitting)(dimension, within)
+        size, unit = getattr(like, which + "axis").in_unit
+    side.in_unit = size, unit
     side.set_label_text(text + (f" [{unit}]" if unit else ""))
     if side.get_scale() == "log":
         for setter in (side.set_major_formatter, side.set_minor_formatter):
@@ -220,14 +220,14 @@ def _number(value, top):
     return f"${value / 10.0**power:.3g}\\times10^{{{power}}}$"
 
 
-def colour_bar(figure, image, axes, text, dimension="", **how):
-    """A colour bar in a suitable unit, right of the axes."""
+def colour_bar(figure, image, axes, text, dimension="", more="", **how):
+    """A colour bar in a suitable unit, right of the axes; more: a second line of its label."""
     low, high = image.get_clim()
     size, unit = fitting(dimension, np.array([low, high]))
     bar = figure.colorbar(
         image,
         ax=axes,
-        label=text + (f" [{unit}]" if unit else ""),
+        label=text + (f" [{unit}]" if unit else "") + more,
         format=FuncFormatter(lambda v, _: _number(v / size, max(abs(low), abs(high)) / size)),
         ticks=MaxNLocator(5),
         **how,
@@ -373,6 +373,9 @@ def settle(figure):
     figure.set_figheight(figure.get_figheight() + sum(added.values()) * 3.4 / 25.4)
     figure.draw_without_rendering()  # with the widths of the tick labels
     for axis in figure.axes:
+        words = axis.yaxis.label  # in lines that are no longer than the axis is high
+        high = 25.4 * axis.get_window_extent().height / figure.dpi
+        words.set_text(wrapped(figure, words.get_text(), max(high, 20), words.get_fontsize()))
         for side in (axis.xaxis, axis.yaxis):
             _space(side)
 
