@@ -354,7 +354,7 @@ class Result:
         model, source = (
             self.case.get(key, "").strip("'") for key in ("solver%model", "surface%source")
         )
-        return "contact_x" in self or model == "elements" or model == "auto" and source == "heights"
+        return "border_share" in self or "contact_x" in self or model == "elements" or model == "auto" and source == "heights"
 
 
 def edges(x, y):
