@@ -144,7 +144,9 @@ void print_case(std::ostream& out, const Job& job) {
         out << format("by %s: %s (solver%%model = 'auto')\n", kModelNames[at(choice.model)],
                       choice.why);
     }
-    if (job.spectrum && by_elements(job.settings) && job.settings.surface.n != defaults.surface.n) {
+    // rsc itself wrote n into a case of twins.
+    if (job.spectrum && by_elements(job.settings) && job.settings.surface.n != defaults.surface.n &&
+        job.settings.surface.source != Source::spectrum) {
         const int n = element_points(job.settings, *job.spectrum);
         if (job.settings.surface.n != n)
             out << format(
