@@ -174,14 +174,17 @@ int run_program(int argc, char** argv, Ranks& ranks) {
     if (options.check) {
         const RunOptions how = how_to_run(options, command_line(argc, argv));
         const std::size_t threads = threads_of(read.settings);
-        const double megabytes =
+        const CheckedSize size =
             named(options, [&] { return check_members(read, options.member, how, threads); });
         std::cout << effective_namelist(read);
         if (!options.quiet)
             std::cerr << "rsc: the inputs can be read and the result can be written"
-                      << (megabytes > 0 ? format("; about %.0f MB of memory with %zu thread%s",
-                                                 megabytes, threads, threads == 1 ? "" : "s")
-                                        : "")
+                      << (size.megabytes > 0
+                              ? format("; about %.0f MB of memory with %zu thread%s",
+                                       size.megabytes, threads, threads == 1 ? "" : "s")
+                              : "")
+                      << '\n'
+                      << (read.study ? "rsc: largest member by " : "rsc: by ") << size.unknowns
                       << '\n';
         return 0;
     }

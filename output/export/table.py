@@ -55,7 +55,7 @@ COLUMNS = [
     "hydraulic_gap",
     "leak_rate",
     "plastic_contacts",
-    "plastic_area",
+    "yielding_share",
     "plastic_work",
     "least_force",
     "energy_lost",

@@ -3,7 +3,7 @@
 import numpy as np
 
 from plot_curves import begin, curve, smooth_areas, title
-from plot_style import GREY, amount, label
+from plot_style import GREY, amount, label, short
 
 
 def area(results, options):
@@ -117,6 +117,23 @@ def _theories(page, result):
         )
 
 
+def _shade(axis, result, at, begins):
+    """Yellow from the onset of yielding on, the darker the larger the share of the contact area
+    that yields."""
+    looks = dict(color="#f2b400", lw=0, gid="yields", zorder=0)
+    if "yielding_share" not in result:
+        axis.axvspan(begins, axis.get_xlim()[1], alpha=0.15, **looks)
+        return
+    force = result.mean("force")[at]
+    at = at[np.argsort(force)]
+    force, share = np.sort(force), result.mean("yielding_share")[at]
+    share = np.maximum.accumulate(np.nan_to_num(share))
+    ends = np.append(np.sqrt(force[1:] * force[:-1]), axis.get_xlim()[1])
+    for low, high, part in zip(np.append(begins, ends[:-1]), ends, share):
+        if high > begins and part > 0:
+            axis.axvspan(max(low, begins), high, alpha=0.06 + 0.44 * part, **looks)
+
+
 def _elastic_until(page, axis, result):
     """Onset of yielding: between the highest force without and the lowest force with a yielding
     contact."""
@@ -134,14 +151,17 @@ def _elastic_until(page, axis, result):
     # In the order of the levels: a spot that yielded counts at lower forces after it too.
     first = at[np.argmax(yields[at])]
     begins, below = force[first], force[at[(at < first) & (force[at] < force[first])]]
-    axis.axvspan(
-        begins, axis.get_xlim()[1], color="#f2b400", alpha=0.15, lw=0, gid="yields", zorder=0
-    )
+    _shade(axis, result, at, begins)
     text = f"contacts yield from {amount(begins, dimension)} on"
-    if below.size:
+    if yields[at].all():
+        text = "contacts yield at all levels"
+    elif below.size:
         text += f" (none at {amount(below.max(), dimension)})"
+    if "yielding_share" in result:
+        most = short(100 * np.nanmax(result.mean("yielding_share")[at]), 2)
+        text += f", up to {most} % of the contact area"
     page.entry(
-        "contacts yield at all levels" if yields[at].all() else text,
+        text,
         color="#f2b400",
         alpha=0.3,
         lw=6,

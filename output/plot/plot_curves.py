@@ -114,7 +114,10 @@ def error_band(page, axis, x, y, off, text, **looks):
         axis.dataLim.set(limits)
         for end in ends:
             axis.update_datalim(np.column_stack([x, np.clip(end, y - size, y + size)]))
-        page.entry(text, lw=5, **looks)
+        if text:
+            page.entry(text, lw=5, **looks)
+        else:
+            page.entry("bands: expected error of the model", color=GREY, lw=5, alpha=0.25)
 
 
 def _fill(axis, x, low, high, **looks):
@@ -237,6 +240,7 @@ def load(results, options):
                 y, name = hertz_force(result, x), result.smooth()
             page.axes[0].plot(x, y, ":", color=GREY, lw=1.0, label=name)
         page.axes[0].set_ylim(limits)
+    page.axes[1].set_xlim(page.axes[0].get_xlim())
     for axis, words, name in zip(page.axes, (text, "number of contacts"), (first, "contacts")):
         label(axis, "x", "approach of the mean planes $-Z_0$" if flat else "approach $-Z_0$", "m")
         label(axis, "y", words, results[0].dimension(name))
@@ -291,8 +295,21 @@ def smooth_areas(results):
 
 
 def _smooth_stiffness(axis, results):
-    """2 E* a of the smooth indenter, if it is the same for all results."""
-    if smooth := smooth_areas(results):
+    """That of the smooth indenter, if it is the same for all results: 2 E* a, or of a cylinder of
+    length L and half-width b pi E* L/(2 ln(2 D/b)), where D is line_reference."""
+    if any(r.pulls() for r in results):
+        return
+    first, lines = results[0], ["line_reference" in r for r in results]
+    if all(lines) and np.isfinite(first.half_width(first.loaded()[-1])):
+        same = {(float(r["e_star"]), float(r["line_reference"])) for r in results}
+        at = first.loaded()[np.argsort(first.mean("force")[first.loaded()])]
+        force, per_length = first.mean("force")[at], first.mean("force_per_length")[at]
+        width = first.half_width_under(per_length)
+        log = np.log(2 * float(first["line_reference"]) / width)
+        if len(same) == 1 and (log > 0).all():
+            y = np.pi * float(first["e_star"]) * force / per_length / (2 * log)
+            axis.plot(force, y, ":", color=GREY, lw=1.0, label="smooth cylinder (Hertz)")
+    elif smooth := smooth_areas(results):
         force, area = smooth
         y = 2 * float(results[0]["e_star"]) * np.sqrt(area / np.pi)
         axis.plot(force, y, ":", color=GREY, lw=1.0, label=results[0].smooth())

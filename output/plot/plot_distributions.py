@@ -11,16 +11,27 @@ from plot_style import FEW, Page, label
 ENOUGH = 60
 
 
-# Fits in the units of the file: (values, text of the parameters).
+# A fit is drawn where no cumulative share is off by more than what the scatter of the contacts
+# explains (Kolmogorov and Smirnov, 5 %), or by more than five points in a hundred.
+CLOSE = 0.05
+
+
+def _holds(fit, contacts):
+    return fit.ks_distance <= max(CLOSE, 1.36 / np.sqrt(contacts))
+
+
+# Fits in the units of the file: (values, fit, text of the parameters).
 def _rayleigh(result, k, p):
-    s = rayleigh(result, k).scale
-    return p / s**2 * np.exp(-(p**2) / (2 * s**2)), ""
+    fit = rayleigh(result, k)
+    s = fit.scale
+    return p / s**2 * np.exp(-(p**2) / (2 * s**2)), fit, ""
 
 
 def _gamma(result, k, p):
     fit = generalised_gamma(result, k)
     return (
         fit.factor * p**fit.alpha * np.exp(-((p / fit.delta) ** fit.beta)),
+        fit,
         rf"; $\alpha$ = {fit.alpha:.2f}, $\beta$ = {fit.beta:.2f}"
         if np.isfinite(fit.alpha)
         else "",
@@ -28,8 +39,17 @@ def _gamma(result, k, p):
 
 
 def _exponential(result, k, a):
-    s = exponential(result, k).scale
-    return np.exp(-a / s) / s, ""
+    fit = exponential(result, k)
+    return np.exp(-a / fit.scale) / fit.scale, fit, ""
+
+
+def _grouped(centre, density, contacts):
+    """Bins in groups, so that a group holds several contacts: at most the root of their number."""
+    size = -(-density.size // int(max(8, np.sqrt(contacts))))
+    padded = np.append(density, np.zeros(-density.size % size)).reshape(-1, size)
+    width = centre[1] - centre[0]
+    middles = centre[0] - width / 2 + size * width * (np.arange(len(padded)) + 0.5)
+    return middles, padded.mean(axis=1)
 
 
 PANELS = [
@@ -83,7 +103,9 @@ def distributions(results, options):
                 (
                     result,
                     int(k),
-                    f"{level}: {counts[k]:.0f} contacts" if len(results) == 1 else name,
+                    f"{level}: {counts[k]:.0f} contacts"
+                    if len(results) == 1
+                    else f"{name}; {level}",
                 )
             )
     if not shown:
@@ -98,27 +120,30 @@ def distributions(results, options):
     looks = panel_looks(
         page,
         [r for r, _, _ in shown],
-        [what + (_gamma(r, k, np.ones(1))[1] if one else "") for r, k, what in shown],
+        [what + (_gamma(r, k, np.ones(1))[2] if one else "") for r, k, what in shown],
     )
+    refused = False
     for axis, (name, bins, text, law, fit) in zip(page.axes, PANELS):
-        end, smallest = 0.0, np.inf
+        end, smallest, drawn = 0.0, np.inf, False
         ends = [r[bins][r[name][k] > 0].max() for r, k, _ in shown if (r[name][k] > 0).any()]
         decades = len(ends) > 1 and max(ends) > 20 * min(ends)  # such as elastic and yielding
         for (result, k, _), (marker, line, colour) in zip(shown, looks):
-            centre, density = result[bins], result[name][k]
+            contacts = contacts_behind(result)[k]
+            centre, density = _grouped(result[bins], result[name][k], contacts)
             good = density > 0
             if not good.any():
                 continue
             x = (np.geomspace if decades else np.linspace)(centre[0] / 10, centre[good].max(), 300)
-            values = fit(result, k, x / result.factor(bins))[0]
-            fitted = np.isfinite(values).all()
+            values, found, _ = fit(result, k, x / result.factor(bins))
+            fitted = np.isfinite(values).all() and _holds(found, contacts)
+            drawn, refused = drawn or fitted, refused or not fitted
             if len(shown) <= FEW or not fitted:  # points of many would hide the lines
                 points = dict(ms=2.5, mfc="none", mew=0.7, color=colour)
                 axis.plot(centre[good], density[good], marker, **points)
             if fitted:
                 axis.plot(x, values * result.factor(name), line, color=colour, lw=1.0, gid="fit")
             end, smallest = max(end, centre[good].max()), min(smallest, density[good].min())
-        axis.set_title(law)
+        axis.set_title(law if drawn else "no fit")
         if decades:
             axis.set(
                 xscale="log",
@@ -136,4 +161,6 @@ def distributions(results, options):
             axis.locator_params(axis="x", nbins=5)
         label(axis, "x", text, shown[0][0].dimension(bins))
         label(axis, "y", "probability density", shown[0][0].dimension(name))
+    if refused:
+        page.entry("no line where the law does not fit", ls="none")
     return page.finish(title(results, "Distributions over contacts"))

@@ -184,9 +184,13 @@ def maps(results, options):
             _axes(axis, result, small, same and place % columns > 0, same and not lowest)
         if image is not None:
             text = "area fraction $A'$" if variable == "map_area_fraction" else "pressure $p$"
-            text += {"pixels": ", means of cells", "spots": ", means of spots"}.get(drawn[0][0], "")
+            more = [{"pixels": "means of cells", "spots": "means of spots"}.get(drawn[0][0], "")]
             dimension = panels[0][0].dimension(variable)
-            how = dict(extend=extend, pad=0.01, aspect=16 if one else 30, fraction=0.08)
+            if extend != "neither":
+                top = max(np.abs(values).max() for _, values, _ in drawn)
+                more.append(f"up to {amount(top, dimension)}")
+            more = ", ".join(filter(None, more))
+            how = dict(more=f"\n{more}" if more else "", extend=extend, pad=0.01, aspect=16 if one else 30, fraction=0.08)
             beside = list(axes)
             if first == "contact":  # the bar of all rows, so that they remain one below the other
                 beside, how["shrink"], how["anchor"] = page.axes, 0.9 / page.rows, (0, 0)

@@ -251,6 +251,8 @@ class Result:
             return [step - 1] if step - 1 in loaded else []
         if "status" in self:  # maps and radial means have nothing of levels that did not converge
             loaded = loaded[(self["status"].reshape(-1, self.steps)[:, loaded] < 4).any(axis=0)]
+        if loaded.size <= count:
+            return [int(step) for step in loaded]
         return (
             sorted(
                 {
@@ -352,7 +354,7 @@ class Result:
         model, source = (
             self.case.get(key, "").strip("'") for key in ("solver%model", "surface%source")
         )
-        return "contact_x" in self or model == "elements" or model == "auto" and source == "heights"
+        return "border_share" in self or "contact_x" in self or model == "elements" or model == "auto" and source == "heights"
 
 
 def edges(x, y):
@@ -470,10 +472,10 @@ class Looks:
             len(STYLES) if len(keys) == 2 else len(results)
         ):
             first, shown = keys[0], values(keys[0])
-            texts, place = [value_text(v) for v in shown], [
+            texts, place = [with_unit(first, v, results[0]) for v in shown], [
                 shown.index(r.case.get(first, "")) for r in results
             ]
-            title, second = axis_label(first, results[0]), keys[1] if len(keys) == 2 else None
+            title, second = key_label(first, results[0])[0], keys[1] if len(keys) == 2 else None
         else:
             second = None
             texts, place, title = (

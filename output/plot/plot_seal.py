@@ -21,11 +21,13 @@ def geometric_mean(gaps):
 
 
 def seal(results, options):
-    """The hydraulic gap along x and y and the mean gap against the nominal pressure."""
+    """The hydraulic gap along x and y, the mean gap and the leak rate against the nominal
+    pressure."""
     results = [r for r in results if "hydraulic_gap" in r and r.loaded().size and r.load_varies()]
     if not results:
         return None
-    page, looks = begin(results, options, 1)
+    leaks = all("leak_rate" in r for r in results)
+    page, looks = begin(results, options, 2 if leaks else 1)
     axis = page.axes[0]
     alone = len(results) == 1
     for result, look in zip(results, looks):
@@ -50,7 +52,19 @@ def seal(results, options):
     axis.set_yscale("log")
     label(axis, "x", "nominal pressure $p$", results[0].dimension("pressure"))
     label(axis, "y", "gap", results[0].dimension("hydraulic_gap"))
+    if leaks:
+        _leak(page, page.axes[1], results, looks)
     return page.finish(title(results, "What leaks: hydraulic gap against nominal pressure"))
+
+
+def _leak(page, axis, results, looks):
+    """The leak rate; levels whose gap is closed have none."""
+    for result, look in zip(results, looks):
+        pressure, rate = result.mean("pressure"), result.mean("leak_rate")
+        curve(page, axis, result, (*look[:2], None), pressure, rate, "leak_rate", alone=False)
+    axis.set(xscale="log", yscale="log", xlim=page.axes[0].get_xlim())
+    label(axis, "x", "nominal pressure $p$", results[0].dimension("pressure"), page.axes[0])
+    label(axis, "y", "leak rate", results[0].dimension("leak_rate"))
 
 
 def constriction(gap):

@@ -5,7 +5,7 @@ from matplotlib.collections import EllipseCollection
 from matplotlib.colors import to_rgba
 
 from plot_results import edges
-from plot_style import Page, amount, colour_bar, label
+from plot_style import Page, amount, colour_bar, label, short
 
 ELASTIC, YIELDING, PULLING = "#d62728", "#f2b400", "#1f6fd0"
 # Of the flags of contact_mask.
@@ -305,7 +305,7 @@ def spots(results, options):
         f"{x.size} spot{'s' if x.size > 1 else ''}"
         + (f", {yields.sum()} yield" if yields.any() and not pixels else "")
         + (
-            f", {np.mean(mask[mask > 0] == 2):.0%} of the area yields"
+            f", {short(100 * np.mean(mask[mask > 0] == 2), 2)} % of the area yields"
             if yields.any() and pixels
             else ""
         )

@@ -86,16 +86,15 @@ def _at_load(results, load, name):
 
 def _keys(results):
     """(the keys that vary, their texts for each result, the key of numbers of curves or None, the
-    names of the other keys for each result); None if there is nothing to draw."""
+    names of the other keys for each result); None if there is nothing to draw. Curves are over the
+    key of numbers with the most values, one for each set of values of the others."""
     keys = differing_keys(results) if len(results) > 2 else []
     texts = [[r.case.get(key, "") for key in keys] for r in results]
     if not keys or len({tuple(t) for t in texts}) < len(texts):
         return None
+    values = [{t[i] for t in texts} for i in range(len(keys))]
     of_numbers = [i for i in range(len(keys)) if not any(_in_order(t[i])[0] for t in texts)]
-    if len(keys) > 2:  # no map: curves over the key of numbers with the most values
-        of_numbers = sorted(of_numbers, key=lambda i: -len({t[i] for t in texts}))[:1]
-    if len(of_numbers) == 1 and len({t[of_numbers[0]] for t in texts}) > 2:
-        along = of_numbers[0]
+    for along in sorted(of_numbers, key=lambda i: -len(values[i]))[:1]:
         symbols = [key_label(key, results[0])[0] for key in keys]
         others = [
             ", ".join(
@@ -105,9 +104,16 @@ def _keys(results):
             )
             for t in texts
         ]
-        if len(set(others)) <= FEW:
+        if len(values[along]) > 2 and len(set(others)) <= FEW:
             return keys, texts, along, others
     return (keys, texts, None, None) if len(keys) == 2 and len(results) >= 4 else None
+
+
+def _more_even(values, than):
+    """True if the steps between values differ less than those of others, relative to their
+    mean."""
+    steps, others = np.diff(values), np.diff(than)
+    return np.std(steps) / np.mean(steps) < np.std(others) / np.mean(others) - 1e-9
 
 
 def _curves(page, axis, panel, results, keys, texts, along, others):
@@ -119,12 +125,13 @@ def _curves(page, axis, panel, results, keys, texts, along, others):
         at = [k for k in np.argsort(numbers, kind="stable") if others[k] == other]
         x, y = numbers[at], panel.values[at]
         axis.plot(x, y, marker, ls=line, color=colour, ms=3.5, label=other or None)
-        text = "expected error" + (f", {other}" if len(shown) > 1 else "")
-        error_band(page, axis, x, y, panel.expected[at], text, color=colour, alpha=0.15)
-        if panel.errors[at].any():
-            bars(page, axis, x, y, panel.errors[at], results[at[0]], colour)
+        if panel.errors[at].any():  # otherwise the bars show it
+            error_band(page, axis, x, y, panel.expected[at], None, color=colour, alpha=0.15)
+        errors = panel.errors[at] if panel.errors[at].any() else panel.expected[at]
+        if (errors > 0).any():
+            bars(page, axis, x, y, errors, results[at[0]], colour)
     values = sorted(set(numbers))
-    if values[0] > 0 and values[-1] > 8 * values[0] and len(values) > 2:
+    if values[0] > 0 and len(values) > 2 and _more_even(np.log(values), values):
         axis.set_xscale("log")
     label(axis, "x", axis_label(keys[along], results[0]))
     if len(values) <= 5:  # the values themselves
@@ -168,6 +175,8 @@ def _table(page, axis, panel, results, keys, texts):
 
 def _page(results, options, found, panels):
     keys, texts, along, others = found
+    # A quantity that is the same in all results says nothing.
+    panels = [p for p in panels if np.ptp(p.values[np.isfinite(p.values)]) > 0] or panels[:1]
     page = Page(options, len(panels), aspect=0.9 if len(panels) > 1 else 0.72)
     for axis, panel in zip(page.axes, panels):
         if along is None:
@@ -179,8 +188,8 @@ def _page(results, options, found, panels):
 
 def study(results, options):
     """Area, contacts and force (separation under force control or at a chosen load) against the
-    keys that vary: curves over one key of numbers (of more than two keys that with the most
-    values), one for each value of the others; maps for two keys of numbers, or of none."""
+    keys that vary: curves over the key of numbers with the most values, one for each value of the
+    others; maps where these would be more than six, or of two keys without numbers."""
     results = [r for r in results if "force" in r and r.loaded().size]
     found = _keys(results)
     if not found:

@@ -59,6 +59,7 @@ plt.rcParams.update(
 _SHOWN = {
     "m": [(1e-9, "nm"), (1e-6, "µm"), (1e-3, "mm"), (1.0, "m")],
     "m2": [(1e-18, "nm²"), (1e-12, "µm²"), (1e-6, "mm²"), (1.0, "m²")],
+    "m3 s-1": [(1e-18, "µm³/s"), (1e-12, "nl/s"), (1e-9, "mm³/s"), (1e-6, "cm³/s")],
     "m4": [(1e-36, "nm⁴"), (1e-24, "µm⁴"), (1e-12, "mm⁴"), (1.0, "m⁴")],
     "m-1": [(1.0, "1/m"), (1e3, "1/mm"), (1e6, "1/µm"), (1e9, "1/nm")],
     "m-2": [(1.0, "1/m²"), (1e6, "1/mm²"), (1e12, "1/µm²"), (1e18, "1/nm²")],
@@ -182,8 +183,9 @@ class _LogTicks(LogFormatterSciNotation):
         return f"$10^{{{power}}}$" if abs(lead - 1) < 1e-6 else f"${lead:.3g}\\times10^{{{power}}}$"
 
 
-def label(axis, which, text, dimension=""):
-    """Writes the label of an axis ('x' or 'y') and its numbers in a unit suitable for its range."""
+def label(axis, which, text, dimension="", like=None):
+    """Writes the label of an axis ('x' or 'y') and its numbers in a unit suitable for its range, or
+    in that of another axis of the same quantity."""
     side = getattr(axis, which + "axis")
     within = []
     for of in (
@@ -195,6 +197,9 @@ def label(axis, which, text, dimension=""):
             [max(lo, drawn.min()), min(hi, drawn.max())] if np.isfinite(drawn).all() else [lo, hi]
         )
     size, unit = (middle if side.get_scale() == "log" else fitting)(dimension, within)
+    if like:
+        size, unit = getattr(like, which + "axis").in_unit
+    side.in_unit = size, unit
     side.set_label_text(text + (f" [{unit}]" if unit else ""))
     if side.get_scale() == "log":
         for setter in (side.set_major_formatter, side.set_minor_formatter):
@@ -215,14 +220,14 @@ def _number(value, top):
     return f"${value / 10.0**power:.3g}\\times10^{{{power}}}$"
 
 
-def colour_bar(figure, image, axes, text, dimension="", **how):
-    """A colour bar in a suitable unit, right of the axes."""
+def colour_bar(figure, image, axes, text, dimension="", more="", **how):
+    """A colour bar in a suitable unit, right of the axes; more: a second line of its label."""
     low, high = image.get_clim()
     size, unit = fitting(dimension, np.array([low, high]))
     bar = figure.colorbar(
         image,
         ax=axes,
-        label=text + (f" [{unit}]" if unit else ""),
+        label=text + (f" [{unit}]" if unit else "") + more,
         format=FuncFormatter(lambda v, _: _number(v / size, max(abs(low), abs(high)) / size)),
         ticks=MaxNLocator(5),
         **how,
@@ -368,6 +373,9 @@ def settle(figure):
     figure.set_figheight(figure.get_figheight() + sum(added.values()) * 3.4 / 25.4)
     figure.draw_without_rendering()  # with the widths of the tick labels
     for axis in figure.axes:
+        words = axis.yaxis.label  # in lines that are no longer than the axis is high
+        high = 25.4 * axis.get_window_extent().height / figure.dpi
+        words.set_text(wrapped(figure, words.get_text(), max(high, 20), words.get_fontsize()))
         for side in (axis.xaxis, axis.yaxis):
             _space(side)
 

@@ -78,6 +78,7 @@ Level AsperityModel::Impl::report(double Z0) const {
     level.asperity.reserve(order.size());
     level.yields.reserve(order.size());
     double extreme = 0;
+    double peak = 0;
     for (std::size_t k : order) {
         const auto [area, axes, beyond] = law->footprint(set.asperity[k], v[k]);
         const double f = force[k] / scale();
@@ -91,8 +92,10 @@ Level AsperityModel::Impl::report(double Z0) const {
         level.yields.push_back(law->memory() && law->memory()->yields(set.asperity[k], v[k]));
         level.plastic_contacts += level.yields.back();
         if (f > kExtreme * indenter.E_star * area) extreme += area;
+        peak = std::max(peak, 1.5 * f / area);
     }
     if (level.area > 0) level.extreme_area_fraction = extreme / level.area;
+    if (peak > 0 && !law->memory()) level.pressure_max = peak;
     complete_level(level, *law, *this);
     return level;
 }

@@ -70,7 +70,7 @@ struct LevelValues {
     double residual = 0;  // |F - C<G0 - B F>^(3/2)| / |F|, unregularised, over all candidates
     // boundary elements: largest violation of the contact conditions by the returned pressures
     double certificate = kNotComputed;
-    double pressure_max = kNotComputed;  // boundary elements: largest pressure [force/length^2]
+    double pressure_max = kNotComputed;  // largest pressure at a point [force/length^2]
     // boundary elements: median pixels per contact, weighted by area
     double pixels_per_contact = kNotComputed;
     // boundary elements: sides of pixels on the borders of contacts over pixels under pressure (of
@@ -108,7 +108,8 @@ struct LevelValues {
     std::int64_t beyond_law = 0;         // contacts beyond the range of validity of the law
     // share of the contact area whose mean pressure exceeds kExtreme E*
     double extreme_area_fraction = 0;
-    double plastic_work = kNotComputed;  // plastic work since the first level [force length]
+    double plastic_work = kNotComputed;    // plastic work since the first level [force length]
+    double yielding_share = kNotComputed;  // share of the contact area at the hardness
     // Adhesion:
     double least_force = kNotComputed;  // smallest force since the beginning [force]
     // area of the points that attract without contact [length^2]

@@ -13,6 +13,9 @@ using V = LevelValues;
 
 bool of_flats(const Case& c) { return c.indentation.boundary == Boundary::periodic; }
 bool of_lines(const Case& c) { return c.indentation.line(); }
+bool has_resistivity(const Case& c) {
+    return c.solids.resistivity[0] + c.solids.resistivity[1] > 0;
+}
 
 constexpr LevelQuantity kRows[] = {
     {.name = "separation",
@@ -155,7 +158,8 @@ constexpr LevelQuantity kRows[] = {
      .member = &V::pressure_max,
      .length_power = -2,
      .force_power = 1,
-     .meaning = "largest pressure at a point (boundary elements)",
+     .meaning = "largest pressure at a point",
+     .comment = "asperities: the largest of Hertz's pressures, elastic bodies only",
      .always = false,
      .statistics = true,
      .plain = "largest pressure"},
@@ -352,8 +356,13 @@ constexpr LevelQuantity kRows[] = {
          "resistivities [K/W times run%length_unit] make it K/W; absent without contact",
      .compute = compute_resistance,
      .always = false,
+     .shown = has_resistivity,
+     .answers = true,
      .statistics = true,
-     .plain = "constriction resistance"},
+     .plain = "constriction resistance",
+     .heading = "resistance",
+     .width = 18,
+     .digits = 5},
 };
 
 // Names of components by their number.

@@ -66,6 +66,7 @@ struct LevelQuantity {
     // The variable of files that has its smallest value over the levels of a realization, missing
     // if a level has no state; null: none.
     const char *least = nullptr, *least_meaning = "", *least_comment = "";
+    bool answers = false;     // the line of a member of a study has its value
     bool statistics = false;  // files also have name_mean and name_std over realizations
     // these are of its logarithm, name_log_mean ..., over the realizations where it is positive
     bool logarithm = false;

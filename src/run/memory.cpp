@@ -232,6 +232,28 @@ double coated_asperities(const Job& job) {
 
 }  // namespace
 
+Unknowns expected_unknowns(const Job& job) {
+    const bool elements = by_elements(job.settings), flats = job.indenter.period.finite();
+    const double points = points_of_elements(job, job.settings.elements.points_per_wave);
+    double most = 0;
+    for (const double level : job.levels) {
+        const double Z0 = likely_separation(job, level);
+        most =
+            std::max(most, elements ? points_under(job, Z0, points) : expected_candidates(job, Z0));
+    }
+    const double step = std::pow(10, std::max(0.0, std::floor(std::log10(most)) - 1));
+    const std::string about = format("about %.0f", step * std::round(most / step));
+    if (!elements)
+        return {most, "asperities, " + about + " under the indenter at the largest load"};
+    const int n = job.given_heights ? 0 : element_points(job.settings, *job.spectrum);
+    const std::string grid = job.given_heights
+                                 ? format("%d x %d", job.given_heights->nx, job.given_heights->ny)
+                                 : format("%d x %d", n, n);
+    if (flats) return {points, "elements, a grid of " + grid + " points with a pressure at each"};
+    return {most, "elements, a grid of " + grid + " points; unknowns are the pressures at those " +
+                      "under the indenter, " + about + " at the largest load"};
+}
+
 double expected_megabytes(const Job& job, double workers) {
     const bool elements = by_elements(job.settings),
                coated = !job.settings.solids.layer_thickness.empty();

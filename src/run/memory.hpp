@@ -21,6 +21,14 @@ struct ElementSize {
 };
 ElementSize element_size(const Job& job, double Z0, double points_per_wave);
 
+// The unknowns of the largest level, as estimated before the run: their number, and in words the
+// model with its grid.
+struct Unknowns {
+    double number;
+    std::string text;
+};
+Unknowns expected_unknowns(const Job& job);
+
 // Memory [MB] of a run with `workers` realizations in parallel at its peak: of elements from the
 // sizes of the surface, the contact and the fields, of coated asperities from the
 // values of the kernel that are kept. 0 for other asperities, which need little. An estimate, not a

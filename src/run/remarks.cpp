@@ -23,20 +23,7 @@ struct Remarks {
         if (!elements) print_methods();
         print_bounds();
         print_statuses();
-        const auto extreme =
-            std::ranges::max_element(levels, [](const LevelValues& p, const LevelValues& q) {
-                return p.extreme_area_fraction < q.extreme_area_fraction;
-            });
-        // the hardness of hardened steel; softer bodies bear E*/10
-        constexpr double kHardest = 5e9;  // [Pa]
-        if (job.indenter.E_star / 10 * pascals(c) > kHardest &&
-            !any_physics(c, &Physics::mends_extreme_pressures) && extreme != levels.end() &&
-            extreme->extreme_area_fraction > kExtremeShare)
-            out << format(
-                "  pressures above E*/10 on %.0f %% of the contact area at %s: no metal stays "
-                "elastic "
-                "at such pressures; solids%%hardness limits them.\n",
-                100 * extreme->extreme_area_fraction, place_of(*extreme).c_str());
+        print_pressures();
         print_physics();
         print_words();
         std::int64_t crowded = 0;
@@ -45,6 +32,34 @@ struct Remarks {
             out << "  " << crowded
                 << " map cells (over all levels) have an area fraction above pi/16 = 19.6 %, where "
                    "contacts would merge.\n";
+    }
+
+    // Elastic levels whose pressures a metal, glass or ceramic would not bear. The strongest yield
+    // at a strain of about 1 %, and an indented body at about three times its yield stress. Softer
+    // bodies, polymers and rubbers, bear larger strains.
+    void print_pressures() const {
+        constexpr double kSoft = 10e9;  // Young's modulus [Pa]
+        constexpr double kYieldStrain = 0.01, kConstraint = 3;
+        double E = kInfinity;
+        for (const double of_body : c.solids.E)
+            if (of_body * pascals(c) > kSoft) E = std::min(E, of_body);
+        double p = 0;
+        const LevelValues* most = nullptr;
+        for (const LevelValues& level : levels)
+            if (level.converged && level.pressure_max > p) {
+                p = level.pressure_max;
+                most = &level;
+            }
+        const double bears = kConstraint * kYieldStrain * E;
+        if (!(p > bears) || any_physics(c, &Physics::mends_extreme_pressures)) return;
+        out << format("  elastic pressures reach %.4g %s/%s2 (%s)", p, f, l,
+                      place_of(*most).c_str());
+        if (const double share = most->extreme_area_fraction; share > kExtremeShare)
+            out << format(", and are above E*/10 on %.0f %% of the contact area", 100 * share);
+        out << format(
+            ": more than a body of E = %g %s/%s2 bears, which yields at some %.0f %s/%s2 at the "
+            "latest (three times a yield stress of E/100); give solids%%hardness.\n",
+            E, f, l, bears, f, l);
     }
 
     // Says how many of the levels this holds for.
@@ -98,8 +113,11 @@ struct Remarks {
         };
         const auto area = [](const LevelValues& l) { return l.area_error_expected; };
         switch (cause) {
-            case Cause::grid:
-                return up_to("error of N", error_of_force) + up_to("error of A", area);
+            case Cause::grid: {
+                const double N = largest(cause, error_of_force), A = largest(cause, area);
+                return A > 0 ? " (errors up to: N " + percent(N) + ", A " + percent(A) + ")"
+                             : up_to("error of N", error_of_force);
+            }
             case Cause::model_error: return up_to("error of N", error_of_force);
             case Cause::filled_points:
                 return up_to("filled_share", [](auto& l) { return l.filled_share; });

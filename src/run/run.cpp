@@ -62,23 +62,37 @@ std::string case_text(const Case& settings) {
     return effective_namelist(without_idle_keys(settings));
 }
 
+// The means of a level over the realizations in which it has a value.
+static LevelValues mean_of(const Observations& o, std::size_t step) {
+    LevelValues mean;
+    for (const LevelQuantity& q : level_quantities())
+        for (const auto c : indices(q.components())) {
+            double sum = 0;
+            int count = 0;
+            for (const auto k : indices(o.realizations))
+                if (const double value = q.of(o.row(k, step), c); !std::isnan(value)) {
+                    sum += value;
+                    ++count;
+                }
+            if (!q.integer()) q.put(mean, count > 0 ? sum / count : kNotComputed, c);
+        }
+    return mean;
+}
+
 RunSummary summary_of(const Result& result) {
     const Observations& o = result.observations;
-    const auto failed =
-        std::ranges::count(o.rows, LevelStatus::not_converged, &LevelValues::status);
-    // The means of a single level that did not converge are missing, but it has values.
-    const bool one = o.realizations == 1;
-    const LevelValues& last = o.rows.back();
-    const std::size_t steps = o.rows.size() / std::max<std::size_t>(1, std::size_t(o.realizations));
-    double least = 0;
-    for (std::size_t k = steps; k > 0 && k <= o.rows.size(); k += steps)
-        least += o.rows[k - 1].least_force / double(o.realizations);
-    return {long(o.rows.size() + result.compared.levels.size()),
-            long(failed) + result.compared.failed,
-            one ? last.separation : o.separation.mean.back(),
-            one ? last.force : o.force.mean.back(),
-            one ? last.area : o.area.mean.back(),
-            least};
+    RunSummary summary;
+    summary.levels = long(o.rows.size() + result.compared.levels.size());
+    summary.failed = result.compared.failed;
+    for (const LevelValues& level : o.rows) {
+        summary.failed += level.status == LevelStatus::not_converged;
+        summary.doubtful += level.doubts != 0;
+        summary.doubts |= level.doubts;
+    }
+    if (o.steps == 0) return summary;
+    summary.first = mean_of(o, 0);
+    summary.last = mean_of(o, o.steps - 1);
+    return summary;
 }
 
 void tell_failed(const RunOptions& options, const RunSummary& summary) {

@@ -26,9 +26,10 @@ struct RunOptions {
 struct RunSummary {
     // Of all realizations, including those compared with elements; failed: not converged.
     long levels = 0, failed = 0;
-    double separation = 0;  // of the last level; its means over the realizations:
-    double force = 0, area = 0;
-    double least_force = kNotComputed;  // adhesion: smallest of all levels
+    long doubtful = 0;        // levels with doubts
+    std::int32_t doubts = 0;  // all of these (trust/doubts.hpp)
+    // Means over the realizations at the first and the last level.
+    LevelValues first = {}, last = {};
 };
 
 // The files that a case reads: heights, spectrum or asperities of the surface, and the map of the

@@ -144,7 +144,9 @@ void print_case(std::ostream& out, const Job& job) {
         out << format("by %s: %s (solver%%model = 'auto')\n", kModelNames[at(choice.model)],
                       choice.why);
     }
-    if (job.spectrum && by_elements(job.settings) && job.settings.surface.n != defaults.surface.n) {
+    // rsc itself wrote n into a case of twins.
+    if (job.spectrum && by_elements(job.settings) && job.settings.surface.n != defaults.surface.n &&
+        job.settings.surface.source != Source::spectrum) {
         const int n = element_points(job.settings, *job.spectrum);
         if (job.settings.surface.n != n)
             out << format(
@@ -258,7 +260,7 @@ void print_level(std::ostream& out, const Job& job, std::size_t number, const Le
         else
             out << format(" %*.1e", q.width, q.of(level));
     }
-    out << '\n';
+    out << std::endl;  // a run may be watched in a file
 }
 
 // Path of the plotting script: in a clone, in the installation, or in the clone where the program
@@ -307,7 +309,7 @@ std::string duration(double seconds) {
 
 // Seconds from which the time of the rest is said, and before which the preparation of the surface
 // or the first of several parallel steps would spoil the estimate.
-constexpr double kWorthSaying = 10, kSteady = 3;
+constexpr double kWorthSaying = 5, kSteady = 2;
 
 ProgressLine::ProgressLine(const RunOptions& options, const char* unit, double already,
                            bool scrolls)
@@ -370,6 +372,48 @@ std::vector<std::size_t> shown_steps(std::size_t steps) {
 
 }  // namespace
 
+// The quantities of a campaign on the screen: Z0 under a prescribed load, and those of the level
+// table that are means in the result.
+static std::vector<const LevelQuantity*> with_means(const Job& job) {
+    std::vector<const LevelQuantity*> all;
+    const bool prescribed = job.settings.indentation.control != Control::separation;
+    for (const LevelQuantity& q : level_quantities())
+        if ((q.separate && q.length_power == 1 && prescribed) || (shown(q, job) && q.statistics))
+            all.push_back(&q);
+    return all;
+}
+
+// Column heads of these, each with its scatter.
+static std::string scatter_heading(const Job& job) {
+    const auto [l, f, time] = units_of(job);
+    std::string text;
+    for (const LevelQuantity* q : with_means(job)) {
+        const std::string unit = q->unit_in(l, f, time);
+        const std::string name = q->heading ? q->heading : "Z0";
+        text += format(" %14s %10s", (unit == "1" ? name : name + " [" + unit + "]").c_str(),
+                       "scatter");
+    }
+    return text;
+}
+
+// Their values at a level; the scatter of what the case prescribes is left out.
+static std::string with_scatter(const Job& job, const Observations& o, std::size_t step) {
+    std::string text;
+    Observations level;
+    level.realizations = o.realizations;
+    level.steps = 1;
+    for (const auto k : indices(o.realizations)) level.rows.push_back(o.row(k, step));
+    for (const LevelQuantity* q : with_means(job)) {
+        const LevelStatistics s =
+            level.statistics([&](const LevelValues& values) { return q->of(values); });
+        const double spread = s.count[0] > 1 ? s.deviation[0] : kNotComputed;
+        const bool given = !(spread > 1e-6 * std::abs(s.mean[0]));
+        text += format(" %14.6g %10s", s.mean[0],
+                       std::isnan(spread) || given ? "-" : format("%.3g", spread).c_str());
+    }
+    return text;
+}
+
 void print_campaign_heading(std::ostream& out, const Job& job, std::size_t workers,
                             std::size_t done) {
     print_case(out, job);
@@ -378,13 +422,10 @@ void print_campaign_heading(std::ostream& out, const Job& job, std::size_t worke
     out << format("%d realizations of %zu levels, %zu in parallel", run.realizations,
                   job.levels.size(), workers);
     if (done > 0) out << format("; %zu of them are finished", done);
-    const auto [l, f, time] = units_of(job);
     out << "\n\nMeans over the realizations so far at the last level; scatter is the standard "
            "deviation of one realization.\n"
-        << format("%12s %14s %10s %14s %10s %12s %10s\n", "realizations",
-                  joined("N [", f, "]").c_str(), "scatter", joined("A [", l, "2]").c_str(),
-                  "scatter", "elapsed", "a second")
-        << std::flush;
+        << format("%12s", "realizations") << scatter_heading(job)
+        << format(" %12s %10s\n", "elapsed", "a second") << std::flush;
 }
 
 void print_batch(std::ostream& out, const Job& job, const Accumulators& sums, double seconds,
@@ -394,31 +435,26 @@ void print_batch(std::ostream& out, const Job& job, const Accumulators& sums, do
     last.realizations = count;
     last.steps = 1;
     for (std::size_t k = 1; k <= count; ++k) last.rows.push_back(sums.rows[k * sums.steps - 1]);
-    const LevelStatistics force = last.statistics([](const LevelValues& l) { return l.force; });
-    const LevelStatistics area = last.statistics([](const LevelValues& l) { return l.area; });
-    const auto scatter = [](const LevelStatistics& s) {
-        return s.count[0] > 1 ? s.deviation[0] : 0.0;
-    };
-    const bool prescribed = job.settings.indentation.control != Control::separation;
-    out << format("%12zu %14.8g %10.3g %14.8g %10.3g %12s %10.3g\n", count, force.mean[0],
-                  prescribed ? 0.0 : scatter(force), area.mean[0], scatter(area),
-                  duration(seconds).c_str(), double(done_in_this_run) / std::max(seconds, 1e-3))
+    out << format("%12zu", count) << with_scatter(job, last, 0)
+        << format(" %12s %10.3g\n", duration(seconds).c_str(),
+                  double(done_in_this_run) / std::max(seconds, 1e-3))
         << std::flush;
 }
 
 void print_campaign_summary(std::ostream& out, const Job& job, const Observations& o,
                             double seconds, const std::string& file, bool replaces) {
-    const auto [l, f, time] = units_of(job);
-    out << format("\nmean curve of %zu realizations\n%5s %12s %9s %14s %10s %14s %10s\n",
-                  o.realizations, "level", joined("Z0 [", l, "]").c_str(), "Z0/sigma",
-                  joined("N [", f, "]").c_str(), "scatter", joined("A [", l, "2]").c_str(),
-                  "scatter");
-    for (const std::size_t s : shown_steps(o.steps))
-        out << format(
-            "%5zu %12.6g %9.5f %14.8g %10.3g %14.8g %10.3g\n", s + 1, o.separation.mean[s],
-            o.separation.mean[s] / job.sigma, o.force.mean[s],
-            job.settings.indentation.control == Control::separation ? o.force.deviation[s] : 0.0,
-            o.area.mean[s], o.area.deviation[s]);
+    const char* const l = units_of(job).length;
+    const bool prescribed = job.settings.indentation.control != Control::separation;
+    out << format("\nmean curve of %zu realizations\n%5s", o.realizations, "level");
+    if (!prescribed) out << format(" %12s", joined("Z0 [", l, "]").c_str());
+    if (in_sigma(job)) out << format(" %9s", "Z0/sigma");
+    out << scatter_heading(job) << '\n';
+    for (const std::size_t s : shown_steps(o.steps)) {
+        out << format("%5zu", s + 1);
+        if (!prescribed) out << format(" %12.6g", o.separation.mean[s]);
+        if (in_sigma(job)) out << format(" %9.5f", o.separation.mean[s] / job.sigma);
+        out << with_scatter(job, o, s) << '\n';
+    }
 
     out << '\n'
         << o.realizations << " realizations, " << o.rows.size() << " levels in "

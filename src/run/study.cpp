@@ -1,5 +1,7 @@
 #include "run/study.hpp"
 
+#include <unistd.h>
+
 #include "base/archive.hpp"
 #include "base/error.hpp"
 #include "base/version.h"
@@ -13,6 +15,7 @@
 #include "run/memory.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
+#include "trust/doubts.hpp"
 
 namespace rsc {
 namespace fs = std::filesystem;
@@ -223,6 +226,32 @@ void look_at_all(const ReadCase& read, const std::vector<Member>& all,
     }
 }
 
+// What a case asked for at its last level: N, A and Z0, and the quantities of its physics; those
+// that have changed since the first level as "first to last". Each ends with "; ".
+std::string answers_of(const Case& settings, const RunSummary& summary) {
+    const Case::Run& run = settings.run;
+    const auto &l = run.length_unit, &f = run.force_unit;
+    const LevelValues& last = summary.last;
+    std::string text = format("N = %.6g %s, A = %.6g %s2 at Z0 = %.6g %s; ", last.force, f.c_str(),
+                              last.area, l.c_str(), last.separation, l.c_str());
+    for (const LevelQuantity& q : level_quantities()) {
+        const double value = q.of(last), first = q.of(summary.first);
+        if (std::isnan(value) || !(q.answers || q.least)) continue;
+        const std::string unit = q.unit_in(l, f, run.time_unit);
+        if (q.least)
+            text += format("pull-off %.4g", -value);
+        else
+            text += q.plain + (first != 0 && first != value && !std::isnan(first)
+                                   ? format(" %.4g to %.4g", first, value)
+                                   : format(" %.4g", value));
+        text += (unit == "1" ? "" : " " + unit) + "; ";
+    }
+    if (summary.doubtful > 0)
+        text += format("%ld of %ld levels in doubt: ", summary.doubtful, summary.levels) +
+                words_of_doubts(summary.doubts) + "; ";
+    return text;
+}
+
 // The summary of a result file that is complete, from the same case, and whose inputs have not
 // changed.
 std::optional<RunSummary> finished(const Member& member) {
@@ -257,15 +286,22 @@ public:
             0);
     }
 
-    // Runs a single member, with its own table, and with all workers for a campaign.
+    // Runs a single member, with all workers for a campaign, and with its own table unless the
+    // table of a study goes to a pipe or file, which has a line for each member.
     void alone(const Member& member) {
+        const bool line = members_ > 1 && isatty(STDOUT_FILENO) == 0;
+        RunOptions options = options_;
+        if (line) options.table = nullptr;
         try {
-            if (table_ && members_ > 1) *table_ << member_name(member) << '\n';
+            if (table_ && members_ > 1 && !line) *table_ << member_name(member) << '\n';
             const bool campaign = member.settings.run.realizations > 1;
-            add(campaign ? run_campaign(member.settings, options_, team_, member.index - 1,
+            const RunSummary summary =
+                campaign ? run_campaign(member.settings, options, team_, member.index - 1,
                                         work_.job(member.index - 1))
-                         : run_realization(member.settings, options_));
-            if (table_ && members_ > 1) *table_ << '\n' << std::flush;
+                         : run_realization(member.settings, options);
+            if (line) tell(member, summary);
+            add(summary);
+            if (table_ && members_ > 1 && !line) *table_ << '\n' << std::flush;
         } catch (const Error& error) {
             throw named(error, member);
         }
@@ -290,17 +326,9 @@ private:
     }
 
     void tell(const Member& member, const RunSummary& summary) {
-        if (table_) {
-            const char *l = member.settings.run.length_unit.c_str(),
-                       *f = member.settings.run.force_unit.c_str();
-            *table_ << member_name(member)
-                    << format(": N = %.8g %s, A = %.8g %s2 at Z0 = %.6g %s; ", summary.force, f,
-                              summary.area, l, summary.separation, l)
-                    << (std::isnan(summary.least_force)
-                            ? ""
-                            : format("pull-off %.6g %s; ", -summary.least_force, f))
+        if (table_)
+            *table_ << member_name(member) << ": " << answers_of(member.settings, summary)
                     << member.settings.output.file << std::endl;
-        }
         if (summary.failed > 0 && options_.messages)
             *options_.messages << "rsc: " << member_name(member) << ":\n";
         tell_failed(options_, summary);
@@ -333,13 +361,14 @@ CampaignWork make_work(const std::vector<Member>& members, const RunOptions& opt
     return {std::move(cases), options};
 }
 
-double check_members(const ReadCase& read, std::optional<int> only, const RunOptions& options,
-                     std::size_t threads) {
+CheckedSize check_members(const ReadCase& read, std::optional<int> only, const RunOptions& options,
+                          std::size_t threads) {
     const std::vector<Member> all = members_of(read);
     const std::vector<const Member*> wanted = wanted_of(read, all, only);
     // members whose memory is estimated; the others are assumed similar
     constexpr std::size_t samples = 20;
-    double megabytes = 0;
+    CheckedSize size;
+    double most = -1;  // unknowns
     std::size_t estimated = 0;
     std::set<std::vector<std::string>> files_read;
     look_at_all(read, all, wanted, options, [&](const Member& member, bool) {
@@ -350,10 +379,13 @@ double check_members(const ReadCase& read, std::optional<int> only, const RunOpt
         const double side_by_side =
             campaign || wanted.size() == 1 ? 1.0 : double(std::min(threads, wanted.size()));
         const double workers = double(threads);
-        megabytes = std::max(megabytes,
-                             expected_megabytes(prepare(member.settings), workers) * side_by_side);
+        const Job job = prepare(member.settings);
+        size.megabytes = std::max(size.megabytes, expected_megabytes(job, workers) * side_by_side);
+        const Unknowns unknowns = expected_unknowns(job);
+        if (unknowns.number > most) size.unknowns = unknowns.text;
+        most = std::max(most, unknowns.number);
     });
-    return megabytes;
+    return size;
 }
 
 RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunOptions& options,

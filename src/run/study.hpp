@@ -26,12 +26,17 @@ std::vector<Member> members_of(const ReadCase& read);
 CampaignWork make_work(const std::vector<Member>& members, const RunOptions& options,
                        std::size_t threads);
 
+// The size of a case, or of the largest member of a study.
+struct CheckedSize {
+    double megabytes = 0;  // memory of elements and coated asperities at their peak; 0: unknown
+    std::string unknowns;
+};
+
 // Checks all members, or the one numbered `only`, without solving a level: reads every input and
-// checks the path of every result.
-// Returns the memory [MB] of elements and coated asperities at their peak with `threads` threads;
-// 0: not estimated. Error(bad_input) names the member.
-double check_members(const ReadCase& read, std::optional<int> only, const RunOptions& options,
-                     std::size_t threads);
+// checks the path of every result. Returns the size with `threads` threads. Error(bad_input) names
+// the member.
+CheckedSize check_members(const ReadCase& read, std::optional<int> only, const RunOptions& options,
+                          std::size_t threads);
 
 // Runs all members, or the one numbered `only` (from 1), and writes the manifest. With
 // options.resume finished members are kept. All members are checked before anything runs:

@@ -48,6 +48,7 @@ TEST(asperities_and_images) {
             CHECK_RELATIVE(level.force, 4.0 / 3 * kE * std::sqrt(radius) * u * std::sqrt(u),
                            kScalar);
             CHECK_RELATIVE(level.u[0], u, kScalar);
+            CHECK_RELATIVE(level.pressure_max, 2 * kE / pi * std::sqrt(u / radius), kScalar);
             Path both = asperity_path(two, flats(L), options(method, 1e-14));
             const double v = pressed(kSelf * std::sqrt(2.0) / (pi * kE * L), depth, radius);
             CHECK_RELATIVE(both.at_separation(Z0).force,

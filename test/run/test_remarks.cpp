@@ -15,7 +15,6 @@ TEST(thresholds) {
     Job job;
     job.settings.solver.model = ModelKind::asperities;
     job.sigma = 2;
-    job.indenter.E_star = 50e3 * (1 + 1e-9);  // E*/10 is above the 5 GPa of hardened steel
     using V = LevelValues;
     const auto remarks = [&](const std::function<void(V&)>& change) {
         std::vector<V> levels(2);
@@ -40,10 +39,21 @@ TEST(thresholds) {
         const Cause cause{int(k)};
         CHECK(said(words_of_doubts(bit(cause)).c_str(), [&](V& v) { v.doubts = bit(cause); }));
     }
-    CHECK(!said("E*/10", [](V& v) { v.extreme_area_fraction = 0.01; }) &&
-          said("E*/10", [](V& v) { v.extreme_area_fraction = 0.0149; }));
-    job.indenter.E_star = 50e3 * (1 - 1e-9);
-    CHECK(!said("E*/10", [](V& v) { v.extreme_area_fraction = 0.9; }));
+    // Three times a yield stress of E/100, of bodies stiffer than 10 GPa that have no hardness.
+    auto& [E, rigid] = job.settings.solids.E;
+    const auto pressed = [&](double p) {
+        return said("elastic pressures", [&](V& v) { v.pressure_max = p * E; });
+    };
+    for (const double stiff : {210e3, 10.1e3}) {
+        E = stiff;
+        CHECK(!pressed(0.0299) && pressed(0.0301));
+    }
+    E = 9.9e3;
+    CHECK(!pressed(0.5));
+    E = 210e3;
+    job.settings.solids.hardness = 3e3;
+    CHECK(!pressed(0.5));
+    job.settings.solids.hardness = kInfinity;
     CHECK(said("are missing", [](V& v) { v.stiffness = kNotComputed; }));
     CHECK(said("overlapping", [](V& v) { v.status = LevelStatus::overlapping; }));
     CHECK(said("not unique", [](V& v) { v.status = LevelStatus::not_unique; }));

@@ -192,6 +192,7 @@ std::vector<LevelQuantity> flow_quantities() {
          .own_error = permeability_error,
          .always = false,
          .shown = leak_asked,
+         .answers = true,
          .statistics = true,
          .plain = "leak rate",
          .heading = "leak",

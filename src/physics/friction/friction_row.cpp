@@ -149,7 +149,23 @@ double coupling(const Case::Solids& s) {
     return above / below;
 }
 
-void print_coupling(std::ostream& out, const RunFacts& run) {
+// What a slide needs at the last level.
+void print_slide(std::ostream& out, const RunFacts& run) {
+    if (run.curves.size() < slide_cycle_points(kSteps) * 2 + 2) return;
+    const auto& units = run.settings.run;
+    const char *l = units.length_unit.c_str(), *f = units.force_unit.c_str();
+    const std::size_t points = slide_cycle_points(kSteps), full = kSteps;
+    const double stiffness = run.curves[2 * points], work = run.curves[2 * points + 1];
+    if (std::isnan(stiffness)) return;
+    out << format(
+        "  sliding at the last level: all spots slip at Q = %.4g %s after %.4g %s; tangential "
+        "stiffness %.4g %s/%s before slip; a cycle of 90 %% of this displacement takes %.4g %s %s "
+        "of friction work.\n",
+        run.curves[points + full], f, run.curves[full], l, stiffness, f, l, work, f, l);
+}
+
+void print_friction(std::ostream& out, const RunFacts& run) {
+    print_slide(out, run);
     constexpr double much = 0.05;
     const double beta = coupling(run.settings.solids);
     if (std::abs(beta) > much)
@@ -180,7 +196,7 @@ const Physics kFriction = {
         return std::make_unique<SlideRecorder>(bodies);
     },
     .calibrated = [](const BodyPhysics&, bool) { return true; },  // levels do not depend on it
-    .remark = print_coupling,
+    .remark = print_friction,
 };
 
 }  // namespace rsc

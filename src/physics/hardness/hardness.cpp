@@ -308,6 +308,27 @@ void print_yielding(std::ostream& out, const RunFacts& run) {
     out << ". Results depend on the loading history.\n";
 }
 
+bool hardness_asked(const Case& c) { return std::isfinite(c.solids.hardness); }
+
+// The share of the contact area under the hardness: of pixels of elements, or of spots.
+const char* compute_yielding_share(LevelSource& source) {
+    Level& level = source.level;
+    const double H = source.physics ? source.physics->of<Hardness>().H0 : kInfinity;
+    if (std::isinf(H)) return "the bodies are elastic: the case has no solids%hardness";
+    double all = 0, hard = 0;
+    for (const double p : level.pixels.pressure) {
+        all += 1;
+        hard += p >= H;
+    }
+    if (level.pixels.pressure.empty())
+        for (const auto k : indices(level.yields)) {
+            all += level.a[k] * level.a[k];
+            hard += level.yields[k] ? level.a[k] * level.a[k] : 0;
+        }
+    level.yielding_share = all > 0 ? hard / all : 0;
+    return nullptr;
+}
+
 std::vector<LevelQuantity> hardness_quantities() {
     using V = LevelValues;
     return {
@@ -319,6 +340,22 @@ std::vector<LevelQuantity> hardness_quantities() {
              "far; boundary elements: contacts with a pixel at the hardness",
          .always = false,
          .beside = &V::plastic_work},
+        {.name = "yielding_share",
+         .member = &V::yielding_share,
+         .unit = "1",
+         .meaning = "share of the contact area that yields",
+         .comment = "boundary elements: pixels at the hardness over pixels under pressure; "
+                    "asperities: area of the spots that yield over that of all spots",
+         .compute = compute_yielding_share,
+         .in_run = hardness_asked,
+         .always = false,
+         .shown = hardness_asked,
+         .answers = true,
+         .statistics = true,
+         .plain = "share of the contact area that yields",
+         .heading = "yielding",
+         .width = 9,
+         .digits = 3},
         {.name = "plastic_work",
          .member = &V::plastic_work,
          .length_power = 1,

@@ -3,6 +3,7 @@
 #include "asperities/ranking.hpp"
 #include "base/error.hpp"
 #include "check.hpp"
+#include "contact/quantities.hpp"
 #include "interaction/pixel_kernels.hpp"
 #include "physics/hardness/hardness.hpp"
 #include "support/asperities.hpp"
@@ -30,6 +31,14 @@ HeightMap rough(int n, double L_lambda_s, std::int64_t seed) {
     return synthesize(spectrum, n, Normalise::sample, seed, 1);
 }
 
+double yielding_share(Path& contact, Level level, double H0) {
+    const SolverOptions bodies = options(H0);
+    LevelSource source{contact, level};
+    source.physics = &bodies.physics;
+    find_quantity("yielding_share")->quantity->compute(source);
+    return level.yielding_share;
+}
+
 TEST(test_limits) {
     const HeightMap map = rough(96, 12, 1);
     const auto elastic = make_element_contact(map, kTip, options(kInfinity)),
@@ -44,6 +53,8 @@ TEST(test_limits) {
         CHECK(e.plastic_contacts == 0 && std::isnan(e.plastic_work) && h.plastic_contacts == 0 &&
               h.plastic_work == 0);
         CHECK(e.yields.empty() && h.yields.size() == h.f.size());
+        CHECK(std::isnan(yielding_share(*elastic, e, kInfinity)) &&
+              yielding_share(*hard, h, 1e30) == 0);
     }
     CHECK(hard->residual_profile().depth.empty());
     for (const double z : {1.5, 0.7, 0.0}) {
@@ -51,7 +62,15 @@ TEST(test_limits) {
         CHECK(s.plastic_contacts == s.contacts && s.contacts > 0);
         CHECK_RELATIVE(s.area, s.force / 1e-3, 1e-12);
         CHECK_RELATIVE(s.area, s.area_pixels, 1e-12);
+        CHECK(yielding_share(*soft, s, 1e-3) == 1);
     }
+    // The share that yields carries H times its area, and the rest less than that.
+    const double H = 1000;
+    const auto some = make_element_contact(map, kTip, options(H));
+    const Level level = some->at_separation(0.7 * kSigma);
+    const double share = yielding_share(*some, level, H);
+    CHECK(share > 0 && share < 1 && share * H * level.area_pixels < level.force &&
+          level.force < H * level.area_pixels);
     SolverOptions scaled = options(1000);
     scaled.physics.of<Hardness>().length = 1e-3;
     CHECK_THROWS(make_element_contact(map, kTip, scaled), Error);
