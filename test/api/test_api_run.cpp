@@ -222,7 +222,7 @@ TEST(api_run) {
     for (const Run& run : runs) every_value(folder, run);
     // The model, the law and the numbers of 'auto' are those of the program.
     struct Choice {
-        std::string groups, of_surface, of_indentation;
+        std::string groups, of_surface = {}, of_indentation = {};
     };
     const std::string on_ball = "&solids R=Infinity, 3 ",
                       on_flats = "&solids R=Infinity, Infinity / ";
