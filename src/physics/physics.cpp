@@ -42,7 +42,7 @@ bool has_field(const Case& settings, std::string_view name) {
 
 std::size_t AskedCurves::values() const {
     std::size_t sum = 0;
-    for (const LevelCurve& c : physics->curves) sum += axis.size > 0 ? c.count(axis.size) : 0;
+    for (const LevelCurve& c : physics->curves) sum += axis.size > 0 ? c.count(axis) : 0;
     return sum;
 }
 

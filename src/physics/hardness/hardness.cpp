@@ -3,6 +3,7 @@
 #include <boost/math/tools/roots.hpp>
 
 #include "base/error.hpp"
+#include "physics/friction/friction.hpp"
 
 namespace rsc {
 namespace {
@@ -350,7 +351,10 @@ const Physics kHardness = {
             bodies.of<Hardness>() = {c.solids.hardness, c.solids.size_effect};
         },
     .asked = [](const BodyPhysics& bodies) { return bodies.of<Hardness>().H0 != kInfinity; },
-    .excludes = {{"friction", "friction needs elastic asperities"},
+    .excludes = {{"solids%friction", "friction of asperities needs elastic ones",
+                  [](const Combination& c) {
+                      return !c.elements && c.bodies.of<Friction>().coefficient > 0;
+                  }},
                  {"solver%model", "it needs the radius of asperities",
                   [](const Combination& c) { return has_size_effect(c) && c.elements; },
                   "solids%size_effect"},
