@@ -33,11 +33,16 @@ void TractionProducts::set_pixels(const std::vector<Pixel>& pixels) {
     constexpr int least = 2 * SparsePlane::kMostReach;  // for the preconditioner
     set_plane(repeats_x ? map_.nx : padded_size(std::max(least, high.x - low.x + 1)),
               repeats_y ? map_.ny : padded_size(std::max(least, high.y - low.y + 1)));
+    order_.resize(pixels.size());
+    std::iota(order_.begin(), order_.end(), std::size_t(0));
+    std::ranges::sort(order_, {},
+                      [&](std::size_t k) { return std::pair(pixels[k].y, pixels[k].x); });
     begin_.assign(at(ny_) + 1, 0);
     column_.resize(pixels.size());
     for (const auto k : indices(pixels)) {
-        ++begin_[at(pixels[k].y - first_.y) + 1];
-        column_[k] = pixels[k].x - first_.x;
+        const Pixel& pixel = pixels[order_[k]];
+        ++begin_[at(pixel.y - first_.y) + 1];
+        column_[k] = pixel.x - first_.x;
     }
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
 }
@@ -140,14 +145,14 @@ void TractionProducts::multiply(std::unique_ptr<VectorPixels<Real>>& plane, cons
             std::fill_n(x, nx_, Real(0));
             std::fill_n(y, nx_, Real(0));
             for (std::size_t k = begin_[at(j)]; k < begin_[at(j) + 1]; ++k) {
-                x[column_[k]] = static_cast<Real>(q[k] / unit);
-                y[column_[k]] = static_cast<Real>(q[n + k] / unit);
+                x[column_[k]] = static_cast<Real>(q[order_[k]] / unit);
+                y[column_[k]] = static_cast<Real>(q[n + order_[k]] / unit);
             }
         },
         [&](int j, const Real* x, const Real* y) {
             for (std::size_t k = begin_[at(j)]; k < begin_[at(j) + 1]; ++k) {
-                u[k] = unit * static_cast<double>(x[column_[k]]);
-                u[n + k] = unit * static_cast<double>(y[column_[k]]);
+                u[order_[k]] = unit * static_cast<double>(x[column_[k]]);
+                u[n + order_[k]] = unit * static_cast<double>(y[column_[k]]);
             }
         });
 }
@@ -165,8 +170,12 @@ void TractionProducts::precondition(const std::vector<float>& q, std::vector<flo
     const std::size_t n = pixels_.size();
     y.resize(2 * n);
     const PixelSet set{begin_, column_};
-    for (const std::size_t from : {std::size_t(0), n})
-        near_->convolve(inverse_, set, q.data() + from, y.data() + from, n >= 16384 ? 0 : 1);
+    std::vector<float> from(n), to(n);
+    for (const std::size_t part : {std::size_t(0), n}) {
+        for (const auto k : indices(n)) from[k] = q[part + order_[k]];
+        near_->convolve(inverse_, set, from.data(), to.data(), n >= 16384 ? 0 : 1);
+        for (const auto k : indices(n)) y[part + order_[k]] = to[k];
+    }
 }
 
 }  // namespace rsc

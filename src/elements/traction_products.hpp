@@ -15,7 +15,8 @@ public:
                      const PointGrid& map);
     ~TractionProducts();
 
-    // Sets the pixels, row by row. On a free surface their columns and rows may be any.
+    // Sets the pixels, all different, in any order. On a free surface their columns and rows may be
+    // any.
     void set_pixels(const std::vector<Pixel>& pixels);
     std::size_t size() const { return pixels_.size(); }
     // u = T q [length] for q [force/length^2], in double precision if `exact`, otherwise in single
@@ -45,6 +46,7 @@ private:
     PixelStencil inverse_;
 
     std::vector<Pixel> pixels_;
+    std::vector<std::size_t> order_;    // of the pixels, row by row
     Pixel first_{0, 0};                 // of the plane
     std::vector<std::size_t> begin_;    // of the rows of the plane
     std::vector<std::int32_t> column_;  // of the pixels, on the plane

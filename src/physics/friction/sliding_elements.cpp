@@ -101,6 +101,10 @@ double TractionSolver::classify() {
         along_x_[k] = slips && size > 0 ? x / size : 0.0;
         along_y_[k] = slips && size > 0 ? y / size : 0.0;
         bend_[k] = slips && limit > 0 ? slip / limit : 0.0;
+        if (limit == 0) {
+            residual_[k] = residual_[n_ + k] = 0;
+            continue;
+        }
         residual_[k] = w_[k] - slip * along_x_[k];
         residual_[n_ + k] = w_[n_ + k] - slip * along_y_[k];
         square += residual_[k] * residual_[k] + residual_[n_ + k] * residual_[n_ + k];
@@ -113,6 +117,7 @@ void TractionSolver::restrict_to_free(std::vector<double>& v) const {
         const double along = v[k] * along_x_[k] + v[n_ + k] * along_y_[k];
         v[k] -= along * along_x_[k];
         v[n_ + k] -= along * along_y_[k];
+        if ((*limit_)[k] == 0) v[k] = v[n_ + k] = 0;
     }
 }
 
@@ -194,55 +199,69 @@ std::vector<double> carried(const std::vector<std::int32_t>& from,
 
 }  // namespace
 
+void SlidingElements::move_tip(const Indenter& indenter) {
+    const auto cut = [](double tip, double first, double step, int n, double period) {
+        if (!std::isfinite(period)) return 0;
+        return wrapped(int(std::lround(std::remainder(tip - first, period) / step)) + n / 2, n);
+    };
+    cut_ = {cut(indenter.x0, map_.x0, map_.dx, map_.nx, indenter.around.x),
+            cut(indenter.y0, map_.y0, map_.dy, map_.ny, indenter.around.y)};
+    set_.clear();
+}
+
+std::vector<Pixel> SlidingElements::on_plane(const std::vector<std::int32_t>& pixels) const {
+    std::vector<Pixel> all;
+    for (const std::int32_t k : pixels)
+        all.push_back(
+            {wrapped(k % map_.nx - cut_.x, map_.nx), wrapped(k / map_.nx - cut_.y, map_.ny)});
+    return all;
+}
+
+bool SlidingElements::sticks(std::size_t k) const {
+    return std::hypot(now_.q[k], now_.q[now_.pixels.size() + k]) < (1 - 1e-9) * now_.limit[k];
+}
+
 // The pixels under pressure, their limits, and T q of the state at them.
 void SlidingElements::set_contact(const LevelPixels& pixels) {
     const std::vector<std::int32_t>& contact = pixels.index;
-    limit_.resize(contact.size());
-    for (const auto k : indices(contact)) limit_[k] = friction_.coefficient * pixels.pressure[k];
-    const auto on_map = [&](const std::vector<std::int32_t>& some) {
-        std::vector<Pixel> all;
-        for (const std::int32_t k : some) all.push_back({k % pixels.columns, k / pixels.columns});
-        return all;
-    };
-    if (contact != now_.pixels || displaced_.empty()) {
+    if (contact != now_.pixels) {
         std::vector<std::int32_t> all;
         std::ranges::set_union(contact, now_.pixels, std::back_inserter(all));
         const auto q = carried(now_.pixels, now_.q, all);
         std::vector<double> u(q.size());
-        products_.set_pixels(on_map(all));
+        products_.set_pixels(on_plane(all));
         products_.apply(q.data(), u.data(), true);
-        displaced_ = carried(all, u, contact);
+        now_.u = carried(all, u, contact);
         now_.q = carried(now_.pixels, now_.q, contact);
         now_.slip = carried(now_.pixels, now_.slip, contact);
         now_.pixels = contact;
         set_.clear();
     }
-    if (set_ != contact) products_.set_pixels(on_map(contact));
+    now_.limit.resize(contact.size());
+    for (const auto k : indices(contact))
+        now_.limit[k] = friction_.coefficient * pixels.pressure[k];
+    if (set_ != contact) products_.set_pixels(on_plane(contact));
     set_ = contact;
 }
 
 bool SlidingElements::slide(const LevelPixels& pixels, Slide by) {
     set_contact(pixels);
     step_lost_ = 0;
-    const std::size_t n = limit_.size();
-    if (n == 0) return true;
-    std::vector<double> b = displaced_, w;
+    const std::size_t n = now_.pixels.size();
+    std::vector<double> b = now_.u, w;
     double weight = 0, size = 0;
     for (const auto k : indices(n)) {
         b[k] += by.x;
         b[n + k] += by.y;
-        weight += limit_[k];
-        size +=
-            limit_[k] * (std::hypot(b[k], b[n + k]) + std::hypot(displaced_[k], displaced_[n + k]));
+        weight += now_.limit[k];
+        size += now_.limit[k] * (std::hypot(b[k], b[n + k]) + std::hypot(now_.u[k], now_.u[n + k]));
     }
     if (!(size > 0)) return true;
-    const auto outcome = solver_.solve(limit_, b, size / weight, tolerance_, now_.q, w);
+    const auto outcome = solver_.solve(now_.limit, b, size / weight, tolerance_, now_.q, w);
+    for (const auto k : indices(2 * n)) now_.u[k] = b[k] - w[k];
     for (const auto k : indices(n)) {
-        displaced_[k] = b[k] - w[k];
-        displaced_[n + k] = b[n + k] - w[n + k];
-        const double lost = now_.q[k] * w[k] + now_.q[n + k] * w[n + k];
-        if (std::hypot(now_.q[k], now_.q[n + k]) < (1 - kAtLimit) * limit_[k]) continue;
-        step_lost_ += area_ * std::max(lost, 0.0);
+        if (sticks(k)) continue;
+        step_lost_ += area_ * std::max(now_.q[k] * w[k] + now_.q[n + k] * w[n + k], 0.0);
         now_.slip[k] += w[k];
         now_.slip[n + k] += w[n + k];
     }
@@ -256,41 +275,42 @@ Slide SlidingElements::force() const {
             area_ * std::accumulate(now_.q.begin() + half, now_.q.end(), 0.0)};
 }
 
-double SlidingElements::energy() const {
-    return displaced_.empty() ? 0.0 : 0.5 * area_ * product(now_.q, displaced_);
-}
+double SlidingElements::energy() const { return 0.5 * area_ * product(now_.q, now_.u); }
 
 double SlidingElements::sticking_area() const {
     double pixels = 0;
-    const std::size_t n = now_.pixels.size();
-    for (const auto k : indices(n))
-        pixels += std::hypot(now_.q[k], now_.q[n + k]) < (1 - 1e-9) * limit_[k];
+    for (const auto k : indices(now_.pixels)) pixels += sticks(k);
     return area_ * pixels;
 }
 
-std::array<double, 3> SlidingElements::stiffness() {
-    const std::size_t n = limit_.size();
-    if (n == 0) return {0, 0, 0};
-    const std::vector<double> none(n, kInfinity);
-    std::vector<double> bx(2 * n, 0.0), by(2 * n, 0.0), x(2 * n, 0.0), y(2 * n, 0.0), wx, wy;
-    std::fill_n(bx.begin(), n, 1.0);
-    std::fill_n(by.begin() + std::ptrdiff_t(n), n, 1.0);
+std::array<double, 3> SlidingElements::stiffness(bool slipping_ones_too) {
+    const std::size_t n = now_.pixels.size();
+    if (set_ != now_.pixels) products_.set_pixels(on_plane(now_.pixels));
+    set_ = now_.pixels;
+    std::vector<double> free(n), bx(2 * n, 0.0), by(2 * n, 0.0), x(2 * n, 0.0), y(2 * n, 0.0);
+    for (const auto k : indices(n)) {
+        free[k] = slipping_ones_too || sticks(k) ? kInfinity : 0.0;
+        bx[k] = by[n + k] = free[k] > 0;
+    }
     // Errors of the sums below are of second order in the residual.
     constexpr double tolerance = 1e-4;
-    (void)solver_.solve(none, bx, 1, tolerance, x, wx);
-    (void)solver_.solve(none, by, 1, tolerance, y, wy);
+    std::vector<double> wx(2 * n), wy(2 * n);
+    (void)solver_.solve(free, bx, 1, tolerance, x, wx);
+    (void)solver_.solve(free, by, 1, tolerance, y, wy);
     return {area_ * (product(x, bx) + product(x, wx)), area_ * (product(x, by) + product(y, wx)),
             area_ * (product(y, by) + product(y, wy))};
 }
 
 double SlidingElements::full_slip(Slide direction) {
-    const std::size_t n = limit_.size();
+    const std::size_t n = now_.pixels.size();
     const double size = std::hypot(direction.x, direction.y);
     if (n == 0 || !(size > 0)) return 0;
+    if (set_ != now_.pixels) products_.set_pixels(on_plane(now_.pixels));
+    set_ = now_.pixels;
     std::vector<double> q(2 * n), u(2 * n);
     for (const auto k : indices(n)) {
-        q[k] = limit_[k] * direction.x / size;
-        q[n + k] = limit_[k] * direction.y / size;
+        q[k] = now_.limit[k] * direction.x / size;
+        q[n + k] = now_.limit[k] * direction.y / size;
     }
     products_.apply(q.data(), u.data(), true);
     double largest = 0;

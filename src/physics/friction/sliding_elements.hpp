@@ -56,11 +56,13 @@ private:
 };
 
 // A contact whose body 2 slides.
-// Pixels are those of the map, without repetition by a tip that was moved on it.
 class SlidingElements {
 public:
     SlidingElements(const Indenter& indenter, const Friction& friction, const PointGrid& map,
                     double tolerance);
+
+    // The tip is above a point of a surface that repeats around it (Indenter::around).
+    void move_tip(const Indenter& indenter);
 
     // Slides body 2 by (x, y) [length] to these pressures. False: it did not converge.
     bool slide(const LevelPixels& pixels, Slide by);
@@ -70,27 +72,22 @@ public:
     double work_lost() const { return now_.lost; }  // since the beginning [force length]
     double step_lost() const { return step_lost_; }
     double sticking_area() const;  // [length^2]
-    // Forces for unit slides if all pixels stick, dQ_x/dx, dQ_x/dy and dQ_y/dy [force/length].
-    std::array<double, 3> stiffness();
+    // Forces for unit slides, dQ_x/dx, dQ_x/dy and dQ_y/dy [force/length], if all pixels stick, or
+    // if those that slip keep their tractions.
+    std::array<double, 3> stiffness(bool slipping_ones_too = true);
     // The slide along a direction at which the last pixel would slip under tractions mu p along it
     // everywhere [length]: full slip.
     double full_slip(Slide direction);
 
-    // Tractions and slips since the beginning, over the pixels of the contact.
+    // Over the pixels of the contact: tractions, their limits and displacements T q, and the slip
+    // since the pixel touched.
     struct State {
         std::vector<std::int32_t> pixels;  // as LevelPixels::index
-        std::vector<double> q, slip;
+        std::vector<double> limit, q, u, slip;
         double lost = 0;
-        template <class Archive, class Self>
-        static void archive(Archive& a, Self& my) {
-            a(my.pixels, my.q, my.slip, my.lost);
-        }
     };
     const State& state() const { return now_; }
-    void restore(State state) {
-        now_ = std::move(state);
-        displaced_.clear();
-    }
+    void restore(State state) { now_ = std::move(state); }
     long products() const { return products_.count(); }
 
 private:
@@ -101,10 +98,12 @@ private:
     double tolerance_, area_, step_lost_ = 0;
     TractionProducts products_;
     TractionSolver solver_;
+    std::vector<Pixel> on_plane(const std::vector<std::int32_t>& pixels) const;
+    bool sticks(std::size_t k) const;
+
     std::vector<std::int32_t> set_;  // of the products
-    std::vector<double> limit_;
+    Pixel cut_{0, 0};                // first column and row of the map around the tip
     State now_;
-    std::vector<double> displaced_;  // T q of the state; empty: not known
 };
 
 }  // namespace rsc
