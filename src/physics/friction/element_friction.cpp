@@ -53,7 +53,8 @@ bool ElementFriction::move_tip(double x0, double y0) {
 
 // The pressures of the state.
 LevelPixels ElementFriction::pressures() const {
-    LevelPixels pixels{.columns = map_.nx};
+    LevelPixels pixels;
+    pixels.columns = map_.nx;
     pixels.index = now_.tractions.pixels;
     for (const double limit : now_.tractions.limit)
         pixels.pressure.push_back(friction_.coefficient > 0 ? limit / friction_.coefficient : 0.0);

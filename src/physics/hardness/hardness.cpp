@@ -3,7 +3,6 @@
 #include <boost/math/tools/roots.hpp>
 
 #include "base/error.hpp"
-#include "physics/friction/friction.hpp"
 
 namespace rsc {
 namespace {
@@ -351,10 +350,8 @@ const Physics kHardness = {
             bodies.of<Hardness>() = {c.solids.hardness, c.solids.size_effect};
         },
     .asked = [](const BodyPhysics& bodies) { return bodies.of<Hardness>().H0 != kInfinity; },
-    .excludes = {{"solids%friction", "friction of asperities needs elastic ones",
-                  [](const Combination& c) {
-                      return !c.elements && c.bodies.of<Friction>().coefficient > 0;
-                  }},
+    .excludes = {{"friction", "friction of asperities needs elastic ones",
+                  [](const Combination& c) { return !c.elements; }},
                  {"solver%model", "it needs the radius of asperities",
                   [](const Combination& c) { return has_size_effect(c) && c.elements; },
                   "solids%size_effect"},
