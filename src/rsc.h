@@ -780,8 +780,11 @@ RSC_API int32_t rsc_stiffness_ratio(const double* E, const double* nu, double* r
 /* The former name of rsc_stiffness_ratio. */
 RSC_API int32_t rsc_tangential_ratio(const double* E, const double* nu, double* ratio);
 
-/* Creates a friction object with the asperities, sphere, tip and options of a contact, and an empty
- * loading path.
+/* Creates a friction object with the bodies, tip and options of a contact, and an empty loading
+ * path. Asperities superpose two normal contacts; boundary elements solve the tangential problem,
+ * with tractions of two components on their points. A step of elements is exact at constant
+ * separation if no slip turns back within it; where the separation or the direction changes, its
+ * errors are of first order in the step: take small ones.
  *     friction (out): the handle;
  *     contact: copied, may be destroyed at once;
  *     mu: coefficient of friction >= 0, finite;
@@ -841,7 +844,8 @@ RSC_API int32_t rsc_friction_move_tip(rsc_friction* friction, double x0, double 
 
 /* Tangential stiffness dQ/d(x, y) for further sliding at this separation in the current direction
  * of slip. If nothing slips, and for reversed sliding, it is S m in all directions, with S =
- * -dN/dZ0. Costs at most as much as one level. All outputs may be null.
+ * -dN/dZ0. Of elements, if the points that slip keep their tractions. Costs at most as much as one
+ * level. All outputs may be null.
  *     friction: the object;
  *     xx, xy, yx, yy: dQ_x/dx, dQ_x/dy, dQ_y/dx, dQ_y/dy [force/length], 0 without contact.
  * Errors: -1 null; RSC_NOT_CONVERGED; RSC_NO_MEMORY. */
@@ -857,7 +861,8 @@ RSC_API int32_t rsc_friction_stiffness(rsc_friction* friction, double* xx, doubl
  *     tangential_energy: elastic energy of the tangential displacement [force length];
  *     lost: work dissipated by friction since the start of the path [force length];
  *     stick_separation: separation at which the contact area would equal the current stick area:
- *       the current separation if all spots stick, that at first contact if all slip [length].
+ *       the current separation if all spots stick, that at first contact if all slip [length]; NaN
+ *       of elements.
  * Errors: -1 null; RSC_NO_RESULT before the first update. */
 RSC_API int32_t rsc_friction_state(const rsc_friction* friction, double* separation, double* x,
                                    double* y, double* force, double* force_x, double* force_y,
@@ -876,7 +881,8 @@ RSC_API int32_t rsc_friction_rollback(rsc_friction* friction);
 
 /* Tangential forces in first loading, for a contact that is pressed to the separation of the latest
  * update and then slid: Q = mu [N(Z0) - N(Z0')], slide = (mu/m) (Z0' - Z0). The path is not
- * changed. Costs as much as one level for each displacement below full slip.
+ * changed. Costs as much as one level for each displacement below full slip. Of elements: along x,
+ * with stick_separation NaN.
  *     friction: the object;
  *     n: length of the arrays, >= 0;
  *     slide: tangential displacements, >= 0 [length];
@@ -904,7 +910,8 @@ RSC_API int32_t rsc_friction_slide(rsc_friction* friction, double force, double*
  * Errors: -1 null; RSC_NO_RESULT before the first update, or if there is no contact. */
 RSC_API int32_t rsc_friction_full_slip(const rsc_friction* friction, double* slide, double* force);
 
-/* Friction at the contact spots of the latest update, in order of asperity index. Costs as much as
+/* Friction at the contact spots of the latest update, in order of asperity index, or of the contacts
+ * of elements, with the radii of circles of the same areas. Costs as much as
  * one level for each stored reversal of the displacement. The number of spots is written even
  * if the arrays are too short.
  *     friction: the object;

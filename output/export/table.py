@@ -125,6 +125,8 @@ class Table:
         last = variable.dimensions[-1]
         if last == "step":
             parts = {"": ...}
+        elif last == "cycle":  # the last one
+            parts = {"": (..., -1)}
         elif last == "depth":
             depths = np.atleast_1d(_numbers(file.variables["depth"]))
             parts = {f"_at_{z:.4g}": (..., k) for k, z in enumerate(depths)}

@@ -190,7 +190,13 @@ def maps(results, options):
                 top = max(np.abs(values).max() for _, values, _ in drawn)
                 more.append(f"up to {amount(top, dimension)}")
             more = ", ".join(filter(None, more))
-            how = dict(more=f"\n{more}" if more else "", extend=extend, pad=0.01, aspect=16 if one else 30, fraction=0.08)
+            how = {
+                "more": f"\n{more}" if more else "",
+                "extend": extend,
+                "pad": 0.01,
+                "aspect": 16 if one else 30,
+                "fraction": 0.08,
+            }
             beside = list(axes)
             if first == "contact":  # the bar of all rows, so that they remain one below the other
                 beside, how["shrink"], how["anchor"] = page.axes, 0.9 / page.rows, (0, 0)

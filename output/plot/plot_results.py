@@ -334,6 +334,14 @@ class Result:
         curvature = sum(1 / float(radius) for radius in radii) / self.factor("separation")
         return 2 * np.sqrt(load / curvature / np.pi / self["e_star"])
 
+    def line_reference(self):
+        """The distance from a line load at which it lowers nothing."""
+        given = self.case.get("indentation%line_reference", "").strip()
+        if given:
+            return float(given) * self.factor("separation")
+        x0, x1, y0, y1 = self.sides()
+        return x1 - x0 if self.along_y() else y1 - y0
+
     def along_y(self):
         """True if the axis of a line contact is along y."""
         return "periodic_y" in self.case.get("indentation%boundary", "")
@@ -354,7 +362,8 @@ class Result:
         model, source = (
             self.case.get(key, "").strip("'") for key in ("solver%model", "surface%source")
         )
-        return "border_share" in self or "contact_x" in self or model == "elements" or model == "auto" and source == "heights"
+        stored = "border_share" in self or "contact_x" in self
+        return stored or model == "elements" or (model == "auto" and source == "heights")
 
 
 def edges(x, y):

@@ -12,13 +12,14 @@ constexpr const char* kNoPath = "friction has no path yet: call rsc_friction_upd
 
 const FrictionHistory& path_of(const rsc_friction* friction) {
     require(friction, 1, "friction");
-    if (!friction->history.state().begun) throw Outcome{RSC_NO_RESULT, kNoPath};
+    if (!(friction->elements ? friction->elements->state().begun : friction->history.state().begun))
+        throw Outcome{RSC_NO_RESULT, kNoPath};
     return friction->history;
 }
 
 const FrictionHistory& contact_of(const rsc_friction* friction) {
     const FrictionHistory& history = path_of(friction);
-    if (history.state().nodes.empty())
+    if (friction->elements ? !friction->elements->touches() : history.state().nodes.empty())
         throw Outcome{RSC_NO_RESULT, "friction: there is no contact yet"};
     return history;
 }
@@ -54,15 +55,34 @@ double shared_force(const Level& first, const Level& second) {
     return std::min(1.0, shared / first.force);
 }
 
+void require_solved(bool solved) {
+    if (!solved)
+        throw Outcome{
+            RSC_NOT_CONVERGED,
+            "the solver did not reach its tolerance; the results are those of its last iterates"};
+}
+
 // Calls a function that computes levels; throws RSC_NOT_CONVERGED if one of them did not converge.
 template <class Ask>
 void with_levels(rsc_friction& friction, Ask&& ask) {
     const long failed = friction.curve.failed();
     ask();
-    if (friction.curve.failed() > failed) {
-        throw Outcome{
-            RSC_NOT_CONVERGED,
-            "the solver did not reach its tolerance; the results are those of its last iterates"};
+    require_solved(friction.curve.failed() == failed);
+}
+
+// The spots of asperities or of elements.
+template <class Spots>
+void put_spots(const Spots& spots, std::int64_t n, std::int64_t* count, std::int32_t* asperity,
+               double* radius, double* stick_radius, double* force_x, double* force_y) {
+    put(count, spots.size());
+    if (n < static_cast<int64_t>(spots.size()))
+        refuse(2, "n", "must be at least the number of spots, ", spots.size());
+    for (const auto k : indices(spots)) {
+        if (asperity) asperity[k] = spots[k].asperity;
+        if (radius) radius[k] = spots[k].radius;
+        if (stick_radius) stick_radius[k] = spots[k].stick_radius;
+        if (force_x) force_x[k] = spots[k].force.x;
+        if (force_y) force_y[k] = spots[k].force.y;
     }
 }
 
@@ -124,8 +144,16 @@ int32_t rsc_friction_copy(rsc_friction** friction, const rsc_friction* original)
     });
 }
 
+std::unique_ptr<ElementFriction> rsc_friction::on_elements(rsc_contact& contact,
+                                                           const Friction& friction) {
+    if (contact.path.asperities()) return nullptr;
+    return std::make_unique<ElementFriction>(contact.path, friction, *contact.on->points,
+                                             std::min(1e-6, contact.options.tolerance));
+}
+
 void rsc_friction::restore(const State& state) {
     outer.restore(state.outer);
+    if (elements) elements->restore(state.elements);
     inner.restore(state.inner);
     curve.recall(state.known);
     history.restore(state.path, state.path);
@@ -139,6 +167,14 @@ int32_t rsc_friction_update(rsc_friction* friction, double separation, double x,
         require_finite(separation, 2, "separation");
         require_finite(x, 3, "x");
         require_finite(y, 4, "y");
+        if (auto* elements = friction->elements.get()) {
+            const bool solved = elements->go_to(separation, {x, y});
+            put(force, elements->state().load);
+            put(force_x, elements->tangential_force().x);
+            put(force_y, elements->tangential_force().y);
+            put(lost, elements->state().step_lost);
+            return require_solved(solved);
+        }
         with_levels(*friction, [&] {
             FrictionHistory& history = friction->history;
             history.go_to(friction->curve, -separation, {x, y});
@@ -159,6 +195,7 @@ int32_t rsc_friction_move_tip(rsc_friction* friction, double x0, double y0) {
         const Indenter& indenter = friction->outer.path.indenter();
         const Vec2 before{indenter.x0, indenter.y0};
         if (before.x == to.x && before.y == to.y) return;
+        if (friction->elements) return require_solved(friction->elements->move_tip(to.x, to.y));
         with_levels(*friction, [&] {
             FrictionHistory& history = friction->history;
             const double delta = history.approach();
@@ -180,6 +217,14 @@ int32_t rsc_friction_move_tip(rsc_friction* friction, double x0, double y0) {
 int32_t rsc_friction_stiffness(rsc_friction* friction, double* xx, double* xy, double* yx,
                                double* yy) {
     return on(friction, "friction", 0, [&] {
+        if (friction->elements) {
+            const auto [x, across, y] = friction->elements->stiffness();
+            put(xx, x);
+            put(xy, across);
+            put(yx, across);
+            put(yy, y);
+            return;
+        }
         with_levels(*friction, [&] {
             const auto tangent = friction->history.stiffness(friction->curve);
             put(xx, tangent.xx);
@@ -195,6 +240,20 @@ int32_t rsc_friction_state(const rsc_friction* friction, double* separation, dou
                            double* tangential_energy, double* lost, double* stick_separation) {
     return guarded(0, [&] {
         const FrictionHistory& history = path_of(friction);
+        if (const auto* elements = friction->elements.get()) {
+            const ElementFriction::State& now = elements->state();
+            put(separation, now.separation);
+            put(x, now.xi.x);
+            put(y, now.xi.y);
+            put(force, now.load);
+            put(force_x, elements->tangential_force().x);
+            put(force_y, elements->tangential_force().y);
+            put(energy, now.energy);
+            put(tangential_energy, elements->tangential_energy());
+            put(lost, elements->work_lost());
+            put(stick_separation, kNotComputed);
+            return;
+        }
         const Slide Q = history.tangential_force();
         put(separation, -history.approach());
         put(x, history.slide().x);
@@ -225,6 +284,10 @@ int32_t rsc_friction_first_loading(rsc_friction* friction, int64_t n, const doub
         if (n == 0) return;
         require_finite(slide, n, 3, "slide");
         require(force, 4, "force");
+        if (friction->elements) {
+            if (stick_separation) std::fill_n(stick_separation, n, kNotComputed);
+            return require_solved(friction->elements->slide_to({slide, slide + n}, force));
+        }
         with_levels(*friction, [&] {
             const auto points = slide_to(friction->curve, history.friction(), history.approach(),
                                          {slide, slide + n});
@@ -241,6 +304,8 @@ int32_t rsc_friction_slide(rsc_friction* friction, double force, double* slide) 
         const FrictionHistory& history = contact_of(friction);
         require_finite(force, 2, "force");
         require(slide, 3, "slide");
+        if (friction->elements)
+            return require_solved(friction->elements->slide_at_force(force, *slide));
         with_levels(*friction, [&] {
             put(slide,
                 slide_at_force(friction->curve, history.friction(), history.approach(), force)
@@ -252,6 +317,11 @@ int32_t rsc_friction_slide(rsc_friction* friction, double force, double* slide) 
 int32_t rsc_friction_full_slip(const rsc_friction* friction, double* slide, double* force) {
     return guarded(0, [&] {
         const FrictionHistory& history = contact_of(friction);
+        if (friction->elements) {
+            put(slide, friction->elements->full_slip());
+            put(force, history.friction().coefficient * friction->elements->state().load);
+            return;
+        }
         put(slide, full_slip(friction->curve, history.friction(), history.approach()));
         put(force, history.friction().coefficient * history.force());
     });
@@ -261,18 +331,10 @@ int32_t rsc_friction_spots(rsc_friction* friction, int64_t n, int64_t* count, in
                            double* radius, double* stick_radius, double* force_x, double* force_y) {
     return guarded(0, [&] {
         const FrictionHistory& history = path_of(friction);
-        with_levels(*friction, [&] {
-            const auto spots = slip_of_spots(friction->curve, history);
-            put(count, spots.size());
-            if (n < static_cast<int64_t>(spots.size()))
-                refuse(2, "n", "must be at least the number of spots, ", spots.size());
-            for (const auto k : indices(spots)) {
-                if (asperity) asperity[k] = spots[k].asperity;
-                if (radius) radius[k] = spots[k].radius;
-                if (stick_radius) stick_radius[k] = spots[k].stick_radius;
-                if (force_x) force_x[k] = spots[k].force.x;
-                if (force_y) force_y[k] = spots[k].force.y;
-            }
-        });
+        const auto give = [&](const auto& spots) {
+            put_spots(spots, n, count, asperity, radius, stick_radius, force_x, force_y);
+        };
+        if (friction->elements) return give(friction->elements->spots());
+        with_levels(*friction, [&] { give(slip_of_spots(friction->curve, history)); });
     });
 }

@@ -4,6 +4,7 @@
 #include "case/registry.hpp"
 #include "contact/answers.hpp"
 #include "physics/friction/contact_curve.hpp"
+#include "physics/friction/element_friction.hpp"
 #include "physics/friction/friction.hpp"
 #include "rsc.h"
 #include "run/prepare.hpp"
@@ -72,20 +73,27 @@ struct rsc_friction {
           inner(like, indenter),
           curve(outer.path, inner.path),
           history(friction),
+          elements(on_elements(outer, friction)),
           committed(state()) {}
     // All that later answers depend on, to the last bit.
     struct State {
         rsc::FrictionHistory::State path;
         rsc::Path::State outer, inner;
         std::array<bool, 2> known;  // ContactCurve::known()
+        rsc::ElementFriction::State elements;
     };
     State state() const {
-        return {history.state(), outer.path.state(), inner.path.state(), curve.known()};
+        return {history.state(), outer.path.state(), inner.path.state(), curve.known(),
+                elements ? elements->state() : rsc::ElementFriction::State{}};
     }
+    static std::unique_ptr<rsc::ElementFriction> on_elements(rsc_contact& contact,
+                                                             const rsc::Friction& friction);
     void restore(const State& state);
     rsc_contact outer, inner;  // the outer and inner end of the memory of the path
     rsc::ContactCurve curve;
     rsc::FrictionHistory history;
+    std::unique_ptr<rsc::ElementFriction>
+        elements;     // on `outer`, instead of these; null: asperities
     State committed;  // initially the new contact
 };
 

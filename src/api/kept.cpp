@@ -332,6 +332,31 @@ void put_friction(Entries& to, const std::string& prefix, const rsc_friction::St
     put_state(to, prefix + "outer.", state.outer);
     put_state(to, prefix + "inner.", state.inner);
     to.numbers[prefix + "known"] = {double(state.known[0]), double(state.known[1])};
+    const ElementFriction::State& e = state.elements;
+    if (!e.begun) return;
+    const SlidingElements::State& t = e.tractions;
+    to.numbers[prefix + "elements"] = {e.separation, e.load, e.energy, e.step_lost,
+                                       e.xi.x,       e.xi.y, t.lost};
+    to.numbers[prefix + "pixels"] = {t.pixels.begin(), t.pixels.end()};
+    to.numbers[prefix + "limit"] = t.limit;
+    to.numbers[prefix + "q"] = t.q;
+    to.numbers[prefix + "u"] = t.u;
+    to.numbers[prefix + "slip"] = t.slip;
+}
+
+ElementFriction::State get_elements(const Entries& from, const std::string& prefix) {
+    if (!from.numbers.contains(prefix + "elements")) return {};
+    const Numbers &e = from.of(prefix + "elements"), &pixels = from.of(prefix + "pixels");
+    if (e.size() != 7) bad_input(kBroken);
+    ElementFriction::State state{true, e[0], e[1], e[2], e[3], {e[4], e[5]}, {}};
+    SlidingElements::State& t = state.tractions;
+    for (const double k : pixels) t.pixels.push_back(std::int32_t(k));
+    t.limit = from.of(prefix + "limit");
+    t.q = from.of(prefix + "q");
+    t.u = from.of(prefix + "u");
+    t.slip = from.of(prefix + "slip");
+    t.lost = e[6];
+    return state;
 }
 
 rsc_friction::State get_friction(const Entries& from, const std::string& prefix,
@@ -352,6 +377,7 @@ rsc_friction::State get_friction(const Entries& from, const std::string& prefix,
     }
     state.outer = get_state(from, prefix + "outer.", friction.outer);
     state.inner = get_state(from, prefix + "inner.", friction.inner);
+    state.elements = get_elements(from, prefix);
     const Numbers& known = from.of(prefix + "known");
     if (known.size() != 2) bad_input(kBroken);
     state.known = {known[0] != 0, known[1] != 0};

@@ -28,6 +28,8 @@ enum class LevelUnit { sigma, length, relative, pressure };
 inline constexpr std::array kLevelUnitNames = {"sigma", "length", "relative", "pressure"};
 enum class Spacing { linear, log };
 inline constexpr std::array kSpacingNames = {"linear", "log"};
+enum class AmplitudeUnit { full_slip, length };
+inline constexpr std::array kAmplitudeUnitNames = {"full_slip", "length"};
 enum class Format { netcdf4, cdf5, classic };
 inline constexpr std::array kFormatNames = {"netcdf4", "cdf5", "classic"};
 enum class Contacts { automatic, none, last, all };
@@ -112,6 +114,11 @@ struct Case {
         std::optional<double> sliding;   // distance from the first to the last level
         std::vector<double> distances;   // explicit list instead
         bool slides() const { return sliding || !distances.empty(); }
+        // Friction: tangential displacements of body 2, x and y of each; empty: cycles.
+        std::vector<double> sliding_path;
+        double amplitude = 0.9;
+        AmplitudeUnit amplitude_unit = AmplitudeUnit::full_slip;
+        int cycles = 1;
         std::optional<double> centre[2];  // default: the middle of the surface
         // line contact: distance from the line at which a uniform line load lowers nothing;
         // default: the side of the surface across the line

@@ -52,7 +52,8 @@ struct LevelQuantity {
     // Whether each level of a run computes it; null: yes. If not, it is computed by name only.
     bool (*in_run)(const Case&) = nullptr;
     // Boundary elements: the expected relative error of a component, from other values of the
-    // level. Null: by the resolution of the contacts, if trust/grid_error_table.hpp has this quantity.
+    // level. Null: by the resolution of the contacts, if trust/grid_error_table.hpp has this
+    // quantity.
     double (*own_error)(const LevelValues&, std::size_t component) = nullptr;
     // The quantity that is its expected error, if that has a row and a meaning of its own.
     double LevelValues::*error_member = nullptr;

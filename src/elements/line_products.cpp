@@ -1,5 +1,4 @@
 #include "base/error.hpp"
-#include "base/library_lock.hpp"
 #include "base/parallel.hpp"
 #include "elements/periodic_pixels.hpp"
 #include "elements/pixel_products.hpp"
@@ -16,26 +15,9 @@ public:
     template <class Coefficient>
     Strip(int padded, int period, bool along_x, Coefficient&& coefficient)
         : nx_(along_x ? period : padded), ny_(along_x ? padded : period) {
-        const std::size_t stride = at(nx_) / 2 + 1;
-        std::vector<std::complex<double>> plane(stride * at(ny_));
-        double* const values = reinterpret_cast<double*>(plane.data());
-        const auto folded = [](int k, int n) { return std::min(k, n - k); };
-        for (int j = 0; j < ny_; ++j)
-            for (int i = 0; i < nx_; ++i) {
-                const int x = folded(i, nx_), y = folded(j, ny_);
-                values[2 * stride * at(j) + at(i)] =
-                    along_x ? coefficient(y, x) : coefficient(x, y);
-            }
-        FftwPlan plan;
-        {
-            const auto lock = fftw_planning();
-            plan.reset(fftw_plan_dft_r2c_2d(
-                ny_, nx_, values, reinterpret_cast<fftw_complex*>(plane.data()), FFTW_ESTIMATE));
-        }
-        if (!plan) throw Error(Failure::internal, "FFTW made no plan for a strip of pixels");
-        fftw_execute(plan.get());
-        modes_.resize(stride * (at(ny_) / 2 + 1));
-        for (std::size_t k = 0; k < modes_.size(); ++k) modes_[k] = plane[k].real();
+        modes_ = modes_of(nx_, ny_, false, [&](int i, int j) {
+            return along_x ? coefficient(j, i) : coefficient(i, j);
+        });
     }
 
     // w = K p for pixels row by row, whose first one of row j is begin[j].
@@ -95,6 +77,46 @@ double spread_of_far_images(double x, double y, double L, int exact, double acro
     return sum * across * along;
 }
 
+}  // namespace
+
+std::vector<double> line_deflections(const Substrate& substrate, const Period& period, int nx,
+                                     int ny, double dx, double dy, double raised) {
+    const bool along_x = period.along_x();
+    const int width = along_x ? ny : nx, along = along_x ? nx : ny;
+    const std::size_t half = at(along) / 2 + 1;
+    const double step = along_x ? dx : dy, across_step = along_x ? dy : dx, L = period.length();
+    const LineKernel kernel(L, period.reference > 0 ? period.reference : width * across_step);
+    std::vector<double> coefficient(at(width) * half);
+    const double area = dx * dy, aspect = step / across_step;
+    constexpr double kFar = 64;
+    const int exact = int(std::ceil(kFar * std::max(dx, dy) / L));
+    parallel_for(width, 8, 0, [&](int i) {
+        for (const auto j : indices(half)) {
+            const double x = i * across_step, y = static_cast<double>(j) * step;
+            // The force and its images are spread over their pixels.
+            double sum = area * (kernel.images(x, y) + raised) +
+                         spread_of_far_images(x, y, L, exact, across_step, step);
+            for (int n = -exact; n <= exact; ++n) {
+                const double t = y + n * L;
+                sum += across_step * pixel_kernel(x / across_step, t / across_step, aspect);
+                if (n != 0) sum -= area / std::hypot(x, t);
+            }
+            coefficient[at(i) * half + j] = substrate.near() * sum;
+        }
+    });
+    return coefficient;
+}
+
+int padded_size(int width) {
+    int padded = 4;
+    while (padded < 2 * width - 1)
+        padded =
+            std::has_single_bit(static_cast<unsigned>(padded)) ? padded / 2 * 3 : padded / 3 * 4;
+    return padded;
+}
+
+namespace {
+
 class LineProducts final : public PixelProducts {
 public:
     LineProducts(const Substrate& substrate, const Period& period, int nx, int ny, double dx,
@@ -123,24 +145,7 @@ public:
             least = std::min(least, point(width_ - 1, static_cast<int>(j)));
         const double raised = shifted ? -least : 0.0;
         shift_ = substrate.near() * raised;
-        coefficient_.resize(at(width_) * half_);
-        const double area = dx * dy, aspect = step / across_step;
-        constexpr double kFar = 64;
-        const int exact = int(std::ceil(kFar * std::max(dx, dy) / L));
-        parallel_for(width_, 8, 0, [&](int i) {
-            for (std::size_t j = 0; j < half_; ++j) {
-                const double x = i * across_step, y = static_cast<double>(j) * step;
-                // The force and its images are spread over their pixels.
-                double sum = area * (kernel.images(x, y) + raised) +
-                             spread_of_far_images(x, y, L, exact, across_step, step);
-                for (int n = -exact; n <= exact; ++n) {
-                    const double t = y + n * L;
-                    sum += across_step * pixel_kernel(x / across_step, t / across_step, aspect);
-                    if (n != 0) sum -= area / std::hypot(x, t);
-                }
-                coefficient_[at(i) * half_ + j] = substrate.near() * sum;
-            }
-        });
+        coefficient_ = line_deflections(substrate, period, nx, ny, dx, dy, raised);
     }
 
     void set_pixels(const std::vector<Pixel>& pixels) override { set_ = arrange(pixels); }
@@ -188,11 +193,7 @@ private:
     void multiply(const Set& set, const double* p, double* w, Accuracy accuracy) {
         if (set.pixels.empty()) return;
         ++count_;
-        // Powers of two and three quarters of them: sets of similar widths share their transforms.
-        int padded = 4;
-        while (padded < 2 * set.width - 1)
-            padded = std::has_single_bit(static_cast<unsigned>(padded)) ? padded / 2 * 3
-                                                                        : padded / 3 * 4;
+        const int padded = padded_size(set.width);
         auto& strip = strips_[padded];
         if (!strip)
             strip = std::make_unique<Strip>(padded, period_, along_x_, [&](int across, int along) {

@@ -222,6 +222,35 @@ void scale(Real* __restrict mode, std::size_t n, Real kx2, const Real* __restric
     }
 }
 
+template <class Real>
+typename PeriodicPixels<Real>::Columns PeriodicPixels<Real>::columns_from_plane(
+    int block, std::size_t worker) {
+    Real* const modes = plans_->buffers[worker].get();
+    const Columns columns{modes, modes + plans_->length};
+    to_columns(static_cast<std::size_t>(ny_), row(0) + at(block) * 2 * kColumns, stride_,
+               columns.block, plans_->stride);
+    return columns;
+}
+
+template <class Real>
+void PeriodicPixels<Real>::columns_to_plane(int block, std::size_t worker) {
+    to_rows(static_cast<std::size_t>(ny_), plans_->buffers[worker].get() + plans_->length,
+            plans_->stride, row(0) + at(block) * 2 * kColumns, stride_);
+}
+
+template <class Real>
+void PeriodicPixels<Real>::forward(const Columns& columns, int column) {
+    Fftw<Real>::execute(plans_->column_forward,
+                        as_complex(columns.block + at(column) * plans_->stride),
+                        as_complex(columns.modes));
+}
+
+template <class Real>
+void PeriodicPixels<Real>::backward(const Columns& columns, int column) {
+    Fftw<Real>::execute(plans_->column_backward, as_complex(columns.modes),
+                        as_complex(columns.block + at(column) * plans_->stride));
+}
+
 // Transforms the columns of modes, multiplies them and transforms them back while they are in the
 // cache. A few columns are copied together, because their elements share cache lines.
 template <class Real>
@@ -229,7 +258,7 @@ void PeriodicPixels<Real>::columns(Answer answer) {
     const int blocks = (nx_ / 2 + kColumns) / kColumns;
     const double pi = std::numbers::pi,
                  points = static_cast<double>(nx_) * static_cast<double>(ny_);
-    const auto rows = static_cast<std::size_t>(ny_), stride = plans_->stride;
+    const auto rows = static_cast<std::size_t>(ny_);
     std::vector<Real> ky2(rows);  // (ky dx)^2
     for (int j = 0; j < ny_; ++j) {
         const double k = 2 * pi * (2 * j <= ny_ ? j : j - ny_) / ny_ * (dx_ / dy_);
@@ -237,14 +266,11 @@ void PeriodicPixels<Real>::columns(Answer answer) {
     }
     parallel_for(
         blocks, 1, static_cast<int>(plans_->buffers.size()), [&](int b, std::size_t worker) {
-            Real *const modes = plans_->buffers[worker].get(),
-                        *const block = modes + plans_->length, *const k = block + kColumns * stride;
-            Real* const plane = plane_.get() + static_cast<std::size_t>(b) * 2 * kColumns;
-            to_columns(rows, plane, stride_, block, stride);
+            const Columns some = columns_from_plane(b, worker);
+            Real *const modes = some.modes, *const k = some.block + kColumns * plans_->stride;
             for (int c = 0; c < kColumns; ++c) {
                 const int i = b * kColumns + c;
-                Real* const column = block + static_cast<std::size_t>(c) * stride;
-                Fftw<Real>::execute(plans_->column_forward, as_complex(column), as_complex(modes));
+                forward(some, c);
                 const double kx = 2 * pi * i / nx_;  // times dx
                 if (half_space_)
                     scale(modes, rows, static_cast<Real>(kx * kx), ky2.data(),
@@ -260,32 +286,131 @@ void PeriodicPixels<Real>::columns(Answer answer) {
                     }
                 }
                 if (i == 0 && half_space_) modes[0] = modes[1] = 0;
-                Fftw<Real>::execute(plans_->column_backward, as_complex(modes), as_complex(column));
+                backward(some, c);
             }
-            to_rows(rows, block, stride, plane, stride_);
+            columns_to_plane(b, worker);
         });
 }
 
 template <class Real>
-void PeriodicPixels<Real>::apply(const Load& load, const Take& take, Answer answer) {
-    const int threads = static_cast<int>(plans_->buffers.size());
+void PeriodicPixels<Real>::forward_rows(const Load& load) {
     // The padding after the modes of a row is transformed with them, so it must be initialised.
     const std::size_t used = 2 * static_cast<std::size_t>(nx_ / 2 + 1);
-    parallel_for(ny_, kRows, threads, [&](int j, std::size_t worker) {
-        Real* const values = plans_->buffers[worker].get();
-        load(j, values);
-        Fftw<Real>::execute(plans_->row_forward, values, as_complex(row(j)));
-        std::fill(row(j) + used, row(j) + stride_, Real(0));
-    });
-    columns(answer);
-    parallel_for(ny_, kRows, threads, [&](int j, std::size_t worker) {
-        Real* const modes = plans_->buffers[worker].get();
-        std::copy_n(row(j), used, modes);
-        Fftw<Real>::execute(plans_->row_backward, as_complex(modes), row(j));
-        take(j, row(j));
-    });
+    parallel_for(ny_, kRows, static_cast<int>(plans_->buffers.size()),
+                 [&](int j, std::size_t worker) {
+                     Real* const values = plans_->buffers[worker].get();
+                     load(j, values);
+                     Fftw<Real>::execute(plans_->row_forward, values, as_complex(row(j)));
+                     std::fill(row(j) + used, row(j) + stride_, Real(0));
+                 });
 }
 
+template <class Real>
+void PeriodicPixels<Real>::backward_rows(const Take& take) {
+    const std::size_t used = 2 * static_cast<std::size_t>(nx_ / 2 + 1);
+    parallel_for(ny_, kRows, static_cast<int>(plans_->buffers.size()),
+                 [&](int j, std::size_t worker) {
+                     Real* const modes = plans_->buffers[worker].get();
+                     std::copy_n(row(j), used, modes);
+                     Fftw<Real>::execute(plans_->row_backward, as_complex(modes), row(j));
+                     take(j, row(j));
+                 });
+}
+
+template <class Real>
+void PeriodicPixels<Real>::apply(const Load& load, const Take& take, Answer answer) {
+    forward_rows(load);
+    columns(answer);
+    backward_rows(take);
+}
+
+std::vector<double> modes_of(int nx, int ny, bool odd,
+                             const std::function<double(int, int)>& value) {
+    const std::size_t stride = at(nx) / 2 + 1;
+    std::vector<std::complex<double>> plane(stride * at(ny));
+    double* const values = reinterpret_cast<double*>(plane.data());
+    // An odd kernel has no value half a period away.
+    const auto sign = [odd](int k, int n) { return !odd || 2 * k < n ? 1 : 2 * k == n ? 0 : -1; };
+    parallel_for((ny + 2) / 2, kRows, 0, [&](int j) {
+        for (int i = 0; 2 * i <= nx; ++i) {
+            const double v = value(i, j);
+            for (const int to_j : {j, (ny - j) % ny})
+                for (const int to_i : {i, (nx - i) % nx})
+                    values[2 * stride * at(to_j) + at(to_i)] = v * sign(to_i, nx) * sign(to_j, ny);
+        }
+    });
+    FftwPlan plan;
+    {
+        const auto lock = fftw_planning();
+        plan.reset(fftw_plan_dft_r2c_2d(
+            ny, nx, values, reinterpret_cast<fftw_complex*>(plane.data()), FFTW_ESTIMATE));
+    }
+    if (!plan) throw Error(Failure::internal, "FFTW made no plan for a kernel of pixels");
+    fftw_execute(plan.get());
+    std::vector<double> modes(stride * (at(ny) / 2 + 1));
+    for (const auto k : indices(modes)) modes[k] = plane[k].real();
+    return modes;
+}
+
+template <class Real>
+VectorPixels<Real>::VectorPixels(int nx, int ny, const VectorModes& modes)
+    : x_(nx, ny, 1, 1), y_(nx, ny, 1, 1) {
+    const std::size_t columns = at(nx) / 2 + 1, half = at(ny) / 2 + 1;
+    const double points = static_cast<double>(nx) * ny;
+    const auto turned = [&](const std::vector<double>& from) {
+        std::vector<Real> to(columns * half);
+        for (const auto j : indices(half))
+            for (const auto i : indices(columns))
+                to[i * half + j] = static_cast<Real>(from[j * columns + i] / points);
+        return to;
+    };
+    xx_ = turned(modes.xx);
+    xy_ = turned(modes.xy);
+    yy_ = turned(modes.yy);
+}
+
+template <class Real>
+void VectorPixels<Real>::mix(Real* x, Real* y, int column) const {
+    const auto rows = static_cast<std::size_t>(x_.ny_);
+    const std::size_t half = rows / 2 + 1, from = at(column) * half;
+    for (std::size_t j = 0; j < rows; ++j) {
+        const bool mirrored = 2 * j > rows;
+        const std::size_t k = from + (mirrored ? rows - j : j);
+        const Real xx = xx_[k], yy = yy_[k], xy = mirrored ? -xy_[k] : xy_[k];
+        for (const std::size_t part : {2 * j, 2 * j + 1}) {
+            const Real a = x[part], b = y[part];
+            x[part] = xx * a + xy * b;
+            y[part] = xy * a + yy * b;
+        }
+    }
+}
+
+template <class Real>
+void VectorPixels<Real>::apply(const Load& load, const Take& take) {
+    // Rows of y are filled with those of x, and taken with them.
+    x_.forward_rows([&](int j, Real* x) { load(j, x, y_.row(j)); });
+    y_.forward_rows([&](int j, Real* y) { std::copy_n(y_.row(j), y_.nx_, y); });
+    const int columns = x_.nx_ / 2 + 1;
+    parallel_for((columns + kColumns - 1) / kColumns, 1,
+                 static_cast<int>(x_.plans_->buffers.size()), [&](int b, std::size_t worker) {
+                     const auto x = x_.columns_from_plane(b, worker);
+                     const auto y = y_.columns_from_plane(b, worker);
+                     for (int c = 0; c < std::min(kColumns, columns - b * kColumns); ++c) {
+                         x_.forward(x, c);
+                         y_.forward(y, c);
+                         mix(x.modes, y.modes, b * kColumns + c);
+                         x_.backward(x, c);
+                         y_.backward(y, c);
+                     }
+                     x_.columns_to_plane(b, worker);
+                     y_.columns_to_plane(b, worker);
+                 });
+    x_.backward_rows([](int, const Real*) {});
+    y_.backward_rows([&](int j, const Real* y) { take(j, x_.row(j), y); });
+}
+
+template class VectorPixels<float>;
+template class VectorPixels<double>;
 template class PeriodicPixels<float>;
 template class PeriodicPixels<double>;
 

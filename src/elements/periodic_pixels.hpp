@@ -45,7 +45,19 @@ public:
     std::size_t bytes() const;
 
 private:
+    template <class>
+    friend class VectorPixels;
     void columns(Answer answer);
+    void forward_rows(const Load& load);
+    void backward_rows(const Take& take);
+    // The memory of a thread for a mode's column, and for a block of columns.
+    struct Columns {
+        Real *modes, *block;
+    };
+    Columns columns_from_plane(int block, std::size_t worker);
+    void columns_to_plane(int block, std::size_t worker);
+    void forward(const Columns& columns, int column);
+    void backward(const Columns& columns, int column);
     void make_plans();
     template <class Factor>
     void set_factors(Factor&& factor);
@@ -71,5 +83,36 @@ private:
 
 extern template class PeriodicPixels<float>;
 extern template class PeriodicPixels<double>;
+
+// The modes of a kernel on a periodic plane of nx x ny pixels, by i <= nx/2 and j <= ny/2 as for
+// PeriodicPixels. value(i, j), |i| <= nx/2 and |j| <= ny/2, is even in both offsets, or odd in
+// both: it is called for i, j >= 0 only.
+std::vector<double> modes_of(int nx, int ny, bool odd,
+                             const std::function<double(int, int)>& value);
+
+// The modes of a kernel between two components, symmetric: xx and yy are even in both directions,
+// xy is odd in both.
+struct VectorModes {
+    std::vector<double> xx, xy, yy;
+};
+
+// Products of two components with such a kernel, as PeriodicPixels of each.
+template <class Real>
+class VectorPixels {
+public:
+    VectorPixels(int nx, int ny, const VectorModes& modes);
+    using Load = std::function<void(int row, Real* x, Real* y)>;
+    using Take = std::function<void(int row, const Real* x, const Real* y)>;
+    void apply(const Load& load, const Take& take);
+
+private:
+    void mix(Real* x, Real* y, int column) const;
+
+    PeriodicPixels<Real> x_, y_;
+    std::vector<Real> xx_, xy_, yy_;  // [column][row <= ny/2]
+};
+
+extern template class VectorPixels<float>;
+extern template class VectorPixels<double>;
 
 }  // namespace rsc

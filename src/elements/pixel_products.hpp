@@ -68,6 +68,15 @@ std::unique_ptr<PixelProducts> make_line_products(const Substrate& substrate, co
                                                   int nx, int ny, double dx, double dy,
                                                   bool shifted = true);
 
+// The deflections under unit pressure on a pixel of such a surface at the offsets [across][along],
+// along at most half a period, each force raised by `raised`/(pi E*) [length/pressure].
+std::vector<double> line_deflections(const Substrate& substrate, const Period& period, int nx,
+                                     int ny, double dx, double dy, double raised);
+
+// At least twice as many pixels less one, for convolutions that do not repeat: a power of two, or
+// three quarters of one, so that sets of similar widths share their transforms.
+int padded_size(int width);
+
 // Products for a surface that repeats along both axes, with deflections measured from their mean
 // (periodic_pixels.hpp), by transforms over the whole period. Pixels are sorted by rows.
 std::unique_ptr<PixelProducts> make_periodic_products(const Substrate& substrate,

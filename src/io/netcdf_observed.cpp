@@ -395,9 +395,17 @@ void ResultTable::curves() {
             add(axis.name, {axis.name}, "1", axis.meaning, one_to(axis.size), attributes);
         else
             add(axis.name, {axis.name}, unit(1), axis.meaning, axis.values, attributes);
+        if (axis.repeats > 0) {
+            file_.dimension(axis.repeats_name, axis.repeats);
+            add(axis.repeats_name, {axis.repeats_name}, "1", axis.repeats_meaning,
+                one_to(axis.repeats));
+        }
+        if (std::ranges::any_of(asked.physics->curves,
+                                [](const LevelCurve& c) { return c.components > 1; }))
+            file_.dimension("direction", 2);
         std::map<std::string, std::vector<double>> values;
         for (const LevelCurve& curve : asked.physics->curves) {
-            const std::size_t n = curve.count(axis.size);
+            const std::size_t n = curve.count(axis);
             std::vector<double>& all = values[curve.name];
             for (const auto k : indices(o_.rows.size())) {
                 const auto begin = o_.curves.begin() + std::ptrdiff_t(k * each + first);
@@ -408,7 +416,11 @@ void ResultTable::curves() {
         for (const LevelCurve& curve : asked.physics->curves) {
             if (curve.if_known && !computed(values[curve.name])) continue;
             Names dims = curve.of_single ? Names{"step"} : Names{"realization", "step"};
-            if (curve.along) dims.push_back(axis.name);
+            if (curve.repeated)
+                dims.push_back(axis.repeats_name);
+            else if (curve.along)
+                dims.push_back(axis.name);
+            if (curve.components > 1) dims.push_back("direction");
             const bool error = !curve.error.empty() && computed(values[curve.error]);
             add_absent(curve.name, dims, unit(curve.length_power, curve.force_power), curve.meaning,
                        values[curve.name], curve.comment,

@@ -220,9 +220,10 @@ void read_curves(const Columns& file, Accumulators& sums) {
     std::size_t first = 0;
     for (const AskedCurves& asked : sums.options.curves)
         for (const LevelCurve& curve : asked.physics->curves) {
-            const std::size_t n = curve.count(asked.axis.size);
+            const std::size_t n = curve.count(asked.axis);
             std::vector<std::size_t> lengths{sums.realization.size(), sums.steps};
-            if (curve.along) lengths.push_back(n);
+            if (curve.along || curve.repeated) lengths.push_back(n / at(curve.components));
+            if (curve.components > 1) lengths.push_back(at(curve.components));
             if (asked.axis.size > 0 && (file.find(curve.name) || !curve.if_known)) {
                 const std::vector<double> values = file.values(curve.name, lengths);
                 for (const auto k : indices(values))

@@ -42,7 +42,7 @@ bool has_field(const Case& settings, std::string_view name) {
 
 std::size_t AskedCurves::values() const {
     std::size_t sum = 0;
-    for (const LevelCurve& c : physics->curves) sum += axis.size > 0 ? c.count(axis.size) : 0;
+    for (const LevelCurve& c : physics->curves) sum += axis.size > 0 ? c.count(axis) : 0;
     return sum;
 }
 
@@ -89,8 +89,8 @@ bool path_dependent(const Case& settings) {
 void find_exclusions(const Combination& all, const Complain& refuse) {
     for (const Physics* p : physics_asked(all.bodies))
         for (const Exclusion& x : p->excludes) {
-            const Physics* const other = x.when ? nullptr : named(x.other);
-            if (x.when ? !x.when(all) : !other->asked(all.bodies)) continue;
+            const Physics* const other = named(x.other);
+            if ((other && !other->asked(all.bodies)) || (x.when && !x.when(all))) continue;
             const std::string key = other ? other->key : x.other;
             const std::string law =
                 key == "asperities%law" ? joined(" = '", kLawNames[at(all.law)], "'") : "";

@@ -72,7 +72,9 @@ struct LevelCurve {
     std::string error = "";  // the curve that holds its expected relative error
     bool if_known = false;   // written only if some level has it
     bool of_single = false;  // of one realization only: without that dimension in files
-    std::size_t count(std::size_t axis) const { return along ? axis : 1; }
+    int components = 1;      // 2: x and y, the last dimension in files
+    bool repeated = false;   // along CurveAxis::repeats instead
+    std::size_t count(const struct CurveAxis& axis) const;
 };
 
 // The axis of the curves of a case.
@@ -83,7 +85,15 @@ struct CurveAxis {
     // further attributes in files
     std::vector<std::pair<const char*, std::vector<std::int32_t>>> parts = {};
     const char* comment = "";
+    // A second axis, of values that are numbered from 1: its name, size and meaning.
+    const char* repeats_name = "";
+    std::size_t repeats = 0;
+    const char* repeats_meaning = "";
 };
+
+inline std::size_t LevelCurve::count(const CurveAxis& axis) const {
+    return (repeated ? axis.repeats : along ? axis.size : 1) * at(components);
+}
 
 // A variable at the points of the surface for the levels of output%field_levels.
 struct PointField {

@@ -8,6 +8,52 @@
 
 namespace test_api_friction {
 
+// Elements along x and then y: the work of Q is what is stored and lost, spots carry all of Q, first
+// loading in one increment is that in many, and in full slip Q is mu N along the slide.
+TEST(elements_along_a_path) {
+    const Made made(
+        "&solids E = 1e5, 1e5  nu = 0.3, 0.3  R = Infinity, 2.5  friction = 0.3 /\n"
+        "&surface n = 64  L = 1  L_lambda_l = 2  L_lambda_s = 8  sigma = 2e-3 /\n"
+        "&solver model = 'elements' /");
+    FrictionHandle friction;
+    OK(rsc_friction_create_from_case(&friction, made.contact, made.c));
+    double N = 0, Qx = 0, Qy = 0, full = 0, most = 0, work = 0, k[4] = {};
+    OK(rsc_friction_update(friction, 0, 5, 7, &N, &Qx, &Qy, nullptr));
+    OK(rsc_friction_full_slip(friction, &full, &most));
+    CHECK(N > 0 && Qx == 0 && Qy == 0);
+    CHECK_RELATIVE(most, 0.3 * N, 1e-14);
+    constexpr int steps = 50;
+    for (int step = 1; step <= 2 * steps; ++step) {
+        const double x = 0.7 * full * std::min(step, steps) / steps,
+                     y = 0.5 * full * std::max(step - steps, 0) / steps, qx = Qx, qy = Qy;
+        OK(rsc_friction_update(friction, 0, 5 + x, 7 + y, nullptr, &Qx, &Qy, nullptr));
+        work += (step <= steps ? 0.35 * (qx + Qx) : 0.25 * (qy + Qy)) * full / steps;
+        CHECK(std::hypot(Qx, Qy) < most);
+        if (step != steps) continue;
+        double once = 0, back = 0;
+        OK(rsc_friction_first_loading(friction, 1, &x, &once, nullptr));
+        CHECK_RELATIVE(once, Qx, 2e-3);
+        OK(rsc_friction_slide(friction, once, &back));
+        CHECK_RELATIVE(back, x, 1e-4);
+    }
+    const FrictionState s = state(friction);
+    CHECK(s.Qx == Qx && s.Qy == Qy && s.lost > 0 && Qy > 0);
+    CHECK_RELATIVE(s.N, N, 1e-6);
+    CHECK_CLOSE(s.x - 5, 0.7 * full, 1e-14);
+    CHECK_RELATIVE(s.tangential + s.lost, work, 5e-3);
+    OK(rsc_friction_stiffness(friction, &k[0], &k[1], &k[2], &k[3]));
+    CHECK(k[0] > 0 && k[3] > 0 && k[1] == k[2] && k[0] * k[3] > k[1] * k[1]);
+    std::int64_t n = 0;
+    (void)rsc_friction_spots(friction, 0, &n, nullptr, nullptr, nullptr, nullptr, nullptr);
+    std::vector<double> fx(n), outer(n), inner(n);
+    OK(rsc_friction_spots(friction, n, &n, nullptr, outer.data(), inner.data(), fx.data(),
+                          nullptr));
+    CHECK_RELATIVE(std::accumulate(fx.begin(), fx.end(), 0.0), Qx, 1e-12);
+    for (const auto i : indices(fx)) CHECK(inner[i] <= outer[i]);
+    OK(rsc_friction_update(friction, 0, 5, 7 + 9 * full, nullptr, &Qx, &Qy, nullptr));
+    CHECK_RELATIVE(Qy, most, 2e-3);
+}
+
 TEST(same_as_core) {
     const rsc::Asperities list = random_asperities(300, 0.02, 0.01, 5e-4, 0.3, 7);
     ContactHandle contact;

@@ -32,10 +32,10 @@ const char* compute_gap(LevelSource& source);
 const char* compute_permeability(LevelSource& source);
 const char* compute_leak(LevelSource& source);
 
-// A level's K and S along x and y are extrapolated, from those of its gap on the points and on every
-// second point (K_c, S_c): K (K/K_c)^kPermeabilityPower, and S alike. Links between two points are
-// too narrow, so that K is nearly always too small (input/trust/permeability.py). Not for odd
-// numbers of points or where every second point leaves no way through.
+// A level's K and S along x and y are extrapolated, from those of its gap on the points and on
+// every second point (K_c, S_c): K (K/K_c)^kPermeabilityPower, and S alike. Links between two
+// points are too narrow, so that K is nearly always too small (input/trust/permeability.py). Not
+// for odd numbers of points or where every second point leaves no way through.
 inline constexpr double kPermeabilityPower = 0.52, kShearPower = 0.35;
 
 // Expected relative errors of K and S along x and y, kPermeabilityPart |ln(K/K_c)| of the K before

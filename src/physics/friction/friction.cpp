@@ -430,44 +430,44 @@ SlidePoint slide_at_force(LoadCurve& curve, const Friction& friction, double del
     return {stick, friction.slide_per_approach() * (delta - stick), Q};
 }
 
-std::size_t slide_cycle_points(int steps) {
-    const auto n = at(steps);
-    return n + 1 + 2 * (n * 9 / 10) + 1;
-}
-
-SlideCycle slide_cycle(LoadCurve& curve, const Friction& friction, double delta, int steps) {
+SlideCycle slide_cycle(LoadCurve& curve, const Friction& friction, double delta, double amplitude,
+                       const SlideCycles& in) {
     require_friction(friction);
     require_contact(curve, delta);
-    if (steps < 20 || steps % 10 != 0)
-        throw Error(Failure::internal, "the number of steps of a cycle must be a multiple of 10");
-    const double mu = friction.coefficient, c = friction.slide_per_approach(),
-                 touch = curve.first_touch();
-    const auto n = at(steps), top = n * 9 / 10;
-    std::vector<double> drop(n +
-                             1);  // N(delta) - N(delta*) at delta* = delta - k/n (delta - touch)
+    const double mu = friction.coefficient, depth = delta - curve.first_touch(),
+                 full = full_slip(curve, friction, delta);
     const auto whole = curve.load(delta);
-    LoadCurve::Load at_top;
-    for (std::size_t k = 1; k < n; ++k) {
-        const auto inner = curve.load(delta - (delta - touch) * double(k) / double(n));
-        drop[k] = whole.force - inner.force;
-        if (k == top) at_top = inner;
-    }
-    drop[n] = whole.force;
+    // The load of the springs that slip after a slide by this share of full slip.
+    const auto inner = [&](double share) {
+        return share < 1 ? curve.load(delta - share * depth) : LoadCurve::Load{};
+    };
+    const auto drop = [&](double share) {
+        return share > 0 ? whole.force - inner(share).force : 0.0;
+    };
     SlideCycle cycle;
-    cycle.first = n + 1;
-    const double step = c * (delta - touch) / double(n);
     const auto put = [&](double xi, double Q) {
         cycle.displacement.push_back(xi);
         cycle.force.push_back(Q);
     };
-    for (std::size_t k = 0; k <= n; ++k) put(step * double(k), mu * drop[k]);
-    const double xi_A = step * double(top), Q_A = mu * drop[top];
-    for (std::size_t k = 0; k <= top; ++k) put(xi_A - 2 * step * double(k), Q_A - 2 * mu * drop[k]);
-    for (std::size_t k = 1; k <= top; ++k)
-        put(-xi_A + 2 * step * double(k), -Q_A + 2 * mu * drop[k]);
-    const double depth = (delta - touch) * double(top) / double(n);
-    cycle.work =
-        4 * mu * c * ((whole.force + at_top.force) * depth - 2 * (whole.energy - at_top.energy));
+    for (int k = 0; k <= in.steps; ++k) {
+        const double share = double(k) / in.steps;
+        put(full * share, mu * drop(share));
+    }
+    const double reach = full > 0 ? amplitude / full : kInfinity, Q_A = mu * drop(reach);
+    std::vector<double> back;  // Q on the way from +amplitude to -amplitude
+    for (int k = 0; k <= in.steps; ++k)
+        back.push_back(Q_A - 2 * mu * drop(reach * double(k) / in.steps));
+    put(amplitude, Q_A);
+    for (int half = 0; half < 2 * in.cycles; ++half)
+        for (int k = 1; k <= in.steps; ++k) {
+            const double xi = amplitude * (1 - 2.0 * k / in.steps);
+            put(half % 2 == 0 ? xi : -xi, half % 2 == 0 ? back[at(k)] : -back[at(k)]);
+        }
+    const double slipped = std::min(reach, 1.0) * depth;
+    const auto stuck = inner(reach);
+    cycle.work = 4 * mu * friction.slide_per_approach() *
+                     ((whole.force + stuck.force) * slipped - 2 * (whole.energy - stuck.energy)) +
+                 4 * mu * whole.force * std::max(amplitude - full, 0.0);
     return cycle;
 }
 

@@ -150,19 +150,20 @@ SlidePoint slide_at_force(LoadCurve& curve, const Friction& friction, double del
 // Slide at which full slip begins, (mu/m) (delta - first touch).
 double full_slip(const LoadCurve& curve, const Friction& friction, double delta);
 
-// First loading in equal steps of xi to full slip, then a cycle between +-kCycleAmplitude of it.
-// After a reversal at A, Q = Q_A - 2 mu [N - N(delta**)] and xi = xi_A - 2 (mu/m) (delta -
-// delta**).
-struct SlideCycle {
-    std::vector<double> displacement,
-        force;              // first loading from 0 to full slip, then the closed cycle
-    std::size_t first = 0;  // number of points of the first loading
-    double work = 0;        // dissipated in one cycle, the area of the loop
+// First loading in equal steps of xi to full slip, then cycles between +-amplitude. After a reversal
+// at A, Q = Q_A - 2 mu [N - N(delta**)] and xi = xi_A - 2 (mu/m) (delta - delta**), up to full slip.
+struct SlideCycles {
+    int steps = 20;  // of the first loading, and from one end of a cycle to the other
+    int cycles = 1;
+    std::size_t first() const { return at(steps) + 1; }  // points of the first loading
+    // Points of the first loading and of the cycles, from one end at +amplitude to the last.
+    std::size_t points() const { return first() + 2 * at(steps) * at(cycles) + 1; }
 };
-// `steps` is the number of steps of the first loading, a multiple of 10 and at least 20.
-inline constexpr double kCycleAmplitude = 0.9;
-SlideCycle slide_cycle(LoadCurve& curve, const Friction& friction, double delta, int steps);
-// Number of points of slide_cycle(), including those of the first loading.
-std::size_t slide_cycle_points(int steps);
+struct SlideCycle {
+    std::vector<double> displacement, force;
+    double work = 0;  // dissipated in a cycle, the area of the loop
+};
+SlideCycle slide_cycle(LoadCurve& curve, const Friction& friction, double delta, double amplitude,
+                       const SlideCycles& in);
 
 }  // namespace rsc

@@ -387,7 +387,8 @@ const Physics kHardness = {
             bodies.of<Hardness>() = {c.solids.hardness, c.solids.size_effect};
         },
     .asked = [](const BodyPhysics& bodies) { return bodies.of<Hardness>().H0 != kInfinity; },
-    .excludes = {{"friction", "friction needs elastic asperities"},
+    .excludes = {{"friction", "friction of asperities needs elastic ones",
+                  [](const Combination& c) { return !c.elements; }},
                  {"solver%model", "it needs the radius of asperities",
                   [](const Combination& c) { return has_size_effect(c) && c.elements; },
                   "solids%size_effect"},

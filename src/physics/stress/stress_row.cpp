@@ -37,10 +37,11 @@ std::vector<Key> stress_keys() {
                  "depths below the surface of body 1 at which the largest stresses of each level "
                  "are computed. auto: 0 and 15 depths from a step between points to a quarter of "
                  "the surface")),
-        number(RSC_KEY(output, sliding_direction), "degree", between(-360, 360),
-               "direction from the x axis in which body 2 slides over body 1: the stresses below "
-               "include those of the friction, mu times the pressure",
-               "the bodies do not slide"),
+        number(
+            RSC_KEY(output, sliding_direction), "degree", between(-360, 360),
+            "direction from the x axis in which body 2 slides over body 1: with stress_depths the "
+            "stresses include those of sliding, mu times the pressure; of cycles of friction",
+            "stresses without sliding; cycles along x"),
     };
 }
 
@@ -50,9 +51,9 @@ void check_stresses(const Case& c, const Complain& complain) {
                              const char* text) {
         if (!right) complain(keys, text);
     };
-    require(!o.sliding_direction || o.stresses(),
+    require(!o.sliding_direction || o.stresses() || c.solids.friction > 0,
             {"output%sliding_direction", "output%stress_depths"},
-            "it is for the stresses at output%stress_depths; give some");
+            "it is for the stresses at output%stress_depths, or for friction; give some");
     if (!o.stresses()) return;
     const bool elements = by_elements(c);
     require(std::ranges::is_sorted(o.stress_depths, std::less_equal<>()), {"output%stress_depths"},

@@ -679,7 +679,9 @@ class Numbers(Drawn):
     def test_friction(self):
         v, _ = raw("slid")
         figure = self.figure("loop", "slid", step=40)
-        self.has_curve(figure, v["tangential_displacement"][39], v["tangential_force"][39])
+        self.has_curve(
+            figure, v["tangential_displacement"][39, :, 0], v["tangential_force"][39, :, 0]
+        )
         # The smooth sphere by Mindlin: full slip at (mu N/k)(3/2), k the tangential stiffness of
         # its contact.
         N, R, E = v["force_mean"][39], float(v["r_star"]), float(v["e_star"])

@@ -240,7 +240,8 @@ constexpr const char* kFlats =
     "&output flow = .true. fields = 'gap', 'flow' field_levels = 0.01, 0.02\n"
     " leak_drop = 0.3, 0.1 leak_length = 2.0 leak_width = 50.0 /\n";
 
-// K and S along x and y from those on every second point, a geometric mean of both diagonal choices.
+// K and S along x and y from those on every second point, a geometric mean of both diagonal
+// choices.
 void extrapolate(const truth::Gap& m, auto& K, auto& S) {
     std::array<double, 4> change{};
     for (const int offset : {0, 1}) {

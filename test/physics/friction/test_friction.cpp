@@ -122,15 +122,20 @@ TEST(mindlin_deresiewicz_cycle) {
     }
     CHECK_CLOSE(path.tangential_force().x, Q_A, 1e-12 * mu * N);  // the loop is closed
     CHECK_RELATIVE(path.work_lost() - first, work, 1e-11);
-    const SlideCycle cycle = slide_cycle(curve, kFriction, delta, 40);
+    const SlideCycles in{.steps = 40, .cycles = 2};
+    const SlideCycle cycle = slide_cycle(curve, kFriction, delta, xi_A, in);
     CHECK_RELATIVE(cycle.work, work, 1e-11);
-    CHECK(cycle.force.size() == slide_cycle_points(40) && cycle.first == 41);
+    CHECK(cycle.force.size() == in.points() && in.points() == 41 + 161 && in.first() == 41);
     CHECK_RELATIVE(cycle.displacement[40], xi_1, 1e-13);
     CHECK_RELATIVE(cycle.force[40], mu * N, 1e-13);
     CHECK_RELATIVE(cycle.displacement[41], xi_A, 1e-13);
     CHECK_CLOSE(cycle.force[41], cycle.force.back(), 1e-12 * mu * N);
     CHECK_CLOSE(cycle.displacement[41], cycle.displacement.back(), 1e-12 * xi_1);
-    CHECK_CLOSE(cycle.force[41 + 36], -cycle.force[41], 1e-12 * mu * N);
+    CHECK_CLOSE(cycle.force[41 + 40], -cycle.force[41], 1e-12 * mu * N);
+    // Beyond full slip a cycle loses 4 mu N over the rest of its way.
+    const double beyond = slide_cycle(curve, kFriction, delta, 1.5 * xi_1, in).work,
+                 full = slide_cycle(curve, kFriction, delta, xi_1, in).work;
+    CHECK_RELATIVE(beyond - full, 2 * mu * N * xi_1, 1e-11);
 }
 
 // Springs with friction one by one (Iwan), on an even grid of s: the spring at s carries what makes

@@ -150,7 +150,7 @@ inline void heights(CheckedFile& f, const Truth& t) {
 // themselves: test_friction.
 inline void friction(CheckedFile& f, const Truth& t) {
     if (!(t.c.solids.friction > 0)) return CHECK(!f.has("tangential_force") && !f.has("point"));
-    constexpr std::size_t first = 41, points = 114;
+    constexpr std::size_t first = 21, points = 62;
     Vector number_of(points);
     std::iota(number_of.begin(), number_of.end(), 1);
     f.same("point", number_of);
@@ -162,13 +162,23 @@ inline void friction(CheckedFile& f, const Truth& t) {
     double touch = -kInfinity;
     const Asperities& a = t.r[0].asperities;
     for (const auto i : indices(a)) touch = std::max(touch, a.z[i] + t.top(a.x[i], a.y[i]));
-    const Vector xi = f.values("tangential_displacement"), Q = f.values("tangential_force");
-    Vector stiffness;
+    const Vector xy = f.values("tangential_displacement"), forces = f.values("tangential_force");
+    Vector xi, Q;
+    for (std::size_t k = 0; k < xy.size(); k += 2) {
+        xi.push_back(xy[k]);
+        Q.push_back(forces[k]);
+    }
+    Vector stiffness, cross, slips;
     for (const std::size_t s : indices(t.steps)) {
         const Level& level = t.r[0].levels[s];
         const std::size_t begin = s * points, full = begin + first - 1;
+        for (const std::size_t k : indices(points))  // along x
+            CHECK(std::isnan(xi[begin + k]) ||
+                  (xy[2 * (begin + k) + 1] == 0 && forces[2 * (begin + k) + 1] == 0));
         const bool touches = level.separation < touch;
         stiffness.push_back(touches ? -m * level.stiffness : kNone);
+        cross.push_back(touches ? 0 : kNone);
+        slips.push_back(touches ? mu / m * (touch - level.separation) : kNone);
         CHECK(std::isnan(xi[full]) != touches && std::isnan(Q[begin]) != touches);
         if (!touches) continue;
         CHECK_RELATIVE(xi[full], mu / m * (touch - level.separation), 1e-10);
@@ -179,7 +189,12 @@ inline void friction(CheckedFile& f, const Truth& t) {
             work += 0.5 * (Q[k] + Q[k + 1]) * (xi[k + 1] - xi[k]);
         CHECK_RELATIVE(f.values("cycle_work")[s], work, 0.01);
     }
-    f.same("tangential_stiffness", stiffness, 1e-9);
+    for (const char* name :
+         {"tangential_stiffness", "tangential_stiffness_xx", "tangential_stiffness_yy"})
+        f.same(name, stiffness, 1e-9);
+    f.same("tangential_stiffness_xy", cross);
+    f.same("full_slip", slips, 1e-10);
+    f.same("cycle", {1});
 }
 
 // A measured map: its parameters from its heights, what was done to it from the library's steps
