@@ -213,7 +213,7 @@ TEST(test_time) {
 // The force of the slide is bounded by mu N, what its energy falls by is lost, none is won; a move
 // back to where the tip is does nothing, one to other asperities leaves nothing of the slide.
 TEST(test_rolling) {
-    Made made(kSurface + "/");
+    Made made(kSurface + "/ &solver model='asperities' /");
     FrictionHandle friction;
     constexpr double mu = 0.4, Z0 = 0.012;
     OK(rsc_friction_create(&friction, made.contact, mu, 0.8));
@@ -248,6 +248,36 @@ TEST(test_rolling) {
     OK(rsc_friction_update(friction, 0.9 * Z0, 2e-4, 1e-4, &N, nullptr, nullptr,
                            nullptr));  // the tip is back, too
     CHECK_RELATIVE(N, force_at(made.contact, 0.9 * Z0), kTolerance);
+}
+
+// Of elements, pixels that join the contact hold the deflection they meet, those that leave lose
+// their tractions.
+TEST(test_rolling_of_elements) {
+    Made made(kSurface + "/ &solver model='elements' /");
+    FrictionHandle friction;
+    constexpr double mu = 0.4, Z0 = 0.012;
+    OK(rsc_friction_create(&friction, made.contact, mu, 0.8));
+    OK(rsc_friction_update(friction, Z0, 0, 0, nullptr, nullptr, nullptr, nullptr));
+    OK(rsc_friction_update(friction, Z0, 2e-4, 1e-4, nullptr, nullptr, nullptr, nullptr));
+    OK(rsc_friction_commit(friction));
+    const FrictionState slid = state(friction);
+    FrictionState last = slid;
+    for (int k = 1; k <= 20; ++k) {
+        OK(rsc_friction_move_tip(friction, 0.5 + 0.001 * k, 0.5));
+        const FrictionState now = state(friction);
+        CHECK(std::hypot(now.Qx, now.Qy) <= mu * now.N * (1 + 1e-12) && now.lost >= last.lost);
+        last = now;
+    }
+    CHECK(last.Qx > 0 && last.Qx < slid.Qx);
+    ContactHandle there;
+    CHECK(rsc_contact_copy(&there, made.contact) == RSC_SUCCESS &&
+          rsc_contact_move_tip(there, 0.52, 0.5) == RSC_SUCCESS);
+    CHECK_RELATIVE(last.N, force_at(there, Z0), kTolerance);
+    OK(rsc_friction_rollback(friction));
+    double N = 0, Qx = 0;
+    OK(rsc_friction_update(friction, Z0, 2e-4, 1e-4, &N, &Qx, nullptr, nullptr));
+    CHECK_RELATIVE(N, slid.N, kTolerance);
+    CHECK_RELATIVE(Qx, slid.Qx, kTolerance);
 }
 
 struct Watched {

@@ -31,10 +31,12 @@ void check_friction(const Case& settings, const Complain& complain) {
     const bool slips = settings.solids.friction > 0, path = !i.sliding_path.empty(),
                cycles = i.cycles != 1 || i.amplitude != Case::Indentation{}.amplitude ||
                         i.amplitude_unit != AmplitudeUnit::full_slip;
-    if (!slips && path) complain({"indentation%sliding_path"}, "needs solids%friction > 0");
+    if (!slips && path)
+        complain({"indentation%sliding_path", "solids%friction"}, "needs solids%friction > 0");
     if (!slips && cycles)
-        complain({i.cycles != 1 ? "indentation%cycles" : "indentation%amplitude"},
-                 "needs solids%friction > 0");
+        complain(
+            {i.cycles != 1 ? "indentation%cycles" : "indentation%amplitude", "solids%friction"},
+            "needs solids%friction > 0");
     if (!slips) return;
     if (i.sliding_path.size() % 2 != 0)
         complain({"indentation%sliding_path"}, "needs an x and a y of each displacement");
