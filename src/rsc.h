@@ -835,9 +835,9 @@ RSC_API int32_t rsc_friction_update(rsc_friction* friction, double separation, d
  * of the normal force carried by these asperities. If the tangential energy would increase, the
  * deflections are scaled so that it stays constant; a decrease counts as work dissipated by
  * friction. If the path is empty or the tip is already there, only the tip changes. Costs as much
- * as one level for each stored reversal. Of elements, pixels in contact at both positions keep their
- * tractions, those that join hold the deflection that they meet, and the energy of those that leave
- * is not counted as dissipated.
+ * as one level for each stored reversal. Of elements, pixels in contact at both positions keep
+ * their tractions, those that join hold the deflection that they meet, and the energy of those that
+ * leave is not counted as dissipated.
  *     friction: the object;
  *     x0, y0: the new position [length], as in rsc_contact_move_tip.
  * Errors: -1 null; -2, -3 not finite; -2 outside; RSC_NOT_CONVERGED; RSC_NO_MEMORY, RSC_INTERNAL.
@@ -912,10 +912,10 @@ RSC_API int32_t rsc_friction_slide(rsc_friction* friction, double force, double*
  * Errors: -1 null; RSC_NO_RESULT before the first update, or if there is no contact. */
 RSC_API int32_t rsc_friction_full_slip(const rsc_friction* friction, double* slide, double* force);
 
-/* Friction at the contact spots of the latest update, in order of asperity index, or of the contacts
- * of elements, with the radii of circles of the same areas. Costs as much as
- * one level for each stored reversal of the displacement. The number of spots is written even
- * if the arrays are too short.
+/* Friction at the contact spots of the latest update, in order of asperity index, or of the
+ * contacts of elements, with the radii of circles of the same areas. Costs as much as one level for
+ * each stored reversal of the displacement. The number of spots is written even if the arrays are
+ * too short.
  *     friction: the object;
  *     n: length of each array;
  *     count (out, may be null): number of spots;

@@ -11,10 +11,10 @@ double mean_radius(const Level& level) {
            sum_of(level.f);
 }
 
-// Summits that are points of a grid of step h lie below the tops between them: by
-// (u^2 + v^2) h^2/2r for a top beside the point by u h, v h, each from -1/2 to 1/2 at random. Relative to Hertz's
-// penetration a^2/r this is h^2/a^2 times 1/12 on average, 0.147 or less in nine of ten cases; by n
-// contacts it is averaged.
+// Summits that are points of a grid of step h lie below the tops between them: by (u^2 + v^2)
+// h^2/2r for a top beside the point by u h, v h, each from -1/2 to 1/2 at random. Relative to
+// Hertz's penetration a^2/r this is h^2/a^2 times 1/12 on average, 0.147 or less in nine of ten
+// cases; by n contacts it is averaged.
 AsperityError below_tops(const Level& level, double h) {
     constexpr double average = 1.0 / 12, most = 0.147;
     const double part = average + (most - average) / std::sqrt(double(std::max(level.contacts, 1)));

@@ -8,8 +8,8 @@
 
 namespace test_api_friction {
 
-// Elements along x and then y: the work of Q is what is stored and lost, spots carry all of Q, first
-// loading in one increment is that in many, and in full slip Q is mu N along the slide.
+// Elements along x and then y: the work of Q is what is stored and lost, spots carry all of Q,
+// first loading in one increment is that in many, and in full slip Q is mu N along the slide.
 TEST(elements_along_a_path) {
     const Made made(
         "&solids E = 1e5, 1e5  nu = 0.3, 0.3  R = Infinity, 2.5  friction = 0.3 /\n"

@@ -150,8 +150,9 @@ SlidePoint slide_at_force(LoadCurve& curve, const Friction& friction, double del
 // Slide at which full slip begins, (mu/m) (delta - first touch).
 double full_slip(const LoadCurve& curve, const Friction& friction, double delta);
 
-// First loading in equal steps of xi to full slip, then cycles between +-amplitude. After a reversal
-// at A, Q = Q_A - 2 mu [N - N(delta**)] and xi = xi_A - 2 (mu/m) (delta - delta**), up to full slip.
+// First loading in equal steps of xi to full slip, then cycles between +-amplitude. After a
+// reversal at A, Q = Q_A - 2 mu [N - N(delta**)] and xi = xi_A - 2 (mu/m) (delta - delta**), up to
+// full slip.
 struct SlideCycles {
     int steps = 20;  // of the first loading, and from one end of a cycle to the other
     int cycles = 1;

@@ -233,8 +233,8 @@ private:
     ContactCurve curve_;
 };
 
-// Boundary elements: sliding_elements.hpp. The fields are those at the end of the path, or of cycles
-// half-way to full slip in first loading.
+// Boundary elements: sliding_elements.hpp. The fields are those at the end of the path, or of
+// cycles half-way to full slip in first loading.
 class ElementSlides final : public SlideRecorder {
 public:
     explicit ElementSlides(const RecordedBodies& bodies)

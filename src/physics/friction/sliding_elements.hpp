@@ -1,7 +1,8 @@
 // Friction by boundary elements: the tangential problem of an increment of the slide of body 2.
 //
 // Each pixel k of the contact carries a traction q_k of two components, |q_k| <= mu p_k. With the
-// displacements u = T q (elements/traction_products.hpp) an increment d of the slide causes the slip
+// displacements u = T q (elements/traction_products.hpp) an increment d of the slide causes the
+// slip
 //     w = d + T q_before - T q,
 // which is 0 where |q| < mu p and along q where |q| = mu p: q is the unique minimum of the
 // complementary energy q'Tq/2 - (d + T q_before)'q over these discs. Pixels that join the contact

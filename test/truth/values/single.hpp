@@ -146,7 +146,7 @@ inline void heights(CheckedFile& f, const Truth& t) {
     f.same("height", g.z);
 }
 
-// First loading up to full slip and a cycle at each level (THEORY.rst, Friction); the curves
+// First loading up to full slip and a cycle at each level (THEORY.rst, section Friction); the curves
 // themselves: test_friction.
 inline void friction(CheckedFile& f, const Truth& t) {
     if (!(t.c.solids.friction > 0)) return CHECK(!f.has("tangential_force") && !f.has("point"));
