@@ -233,7 +233,7 @@ def text(law, name):
         lines.append(f"# left out, because some level lacks them: {', '.join(missing)}")
     lines += [f"# column {c.name} {c.unit} {c.words}: {c.meaning}" for c in whole]
     rows = zip(*(column.values for column in whole))
-    return lines + ["  ".join(f"{value + 0.0:.15e}" for value in row)  # no -0 for row in rows]
+    return lines + ["  ".join(f"{value + 0.0:.15e}" for value in row) for row in rows]  # no -0
 
 
 def lubrication(law, name):
