@@ -213,7 +213,7 @@ TEST(test_time) {
 // The force of the slide is bounded by mu N, what its energy falls by is lost, none is won; a move
 // back to where the tip is does nothing, one to other asperities leaves nothing of the slide.
 TEST(test_rolling) {
-    Made made(kSurface + "/ &solver model='asperities' /");
+    Made made(kSurface + "/");
     FrictionHandle friction;
     constexpr double mu = 0.4, Z0 = 0.012;
     OK(rsc_friction_create(&friction, made.contact, mu, 0.8));

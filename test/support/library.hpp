@@ -63,12 +63,13 @@ inline ContactHandle contact_on(const rsc_asperities* asperities, const rsc_case
     return contact;
 }
 
-// A case, its asperities and its contact.
+// A case, its asperities and its contact: of asperities, unless the text names a model.
 struct Made {
     CaseHandle c;
     AsperitiesHandle asperities;
     ContactHandle contact;
     explicit Made(const std::string& text) : c(case_of(text)) {
+        if (text.find("model") == text.npos) OK(rsc_case_set(c, "solver%model", "'asperities'"));
         OK(rsc_asperities_make(&asperities, c, 1));
         contact = contact_on(asperities, c);
     }
