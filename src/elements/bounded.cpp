@@ -204,16 +204,14 @@ double BoundedSolver::descend(int most_steps, double reduction) {
     return decrease;
 }
 
+void BoundedSolver::clip() {
+    each([&](std::size_t k) { p_[k] = std::clamp(p_[k], 0.0, highest_); });
+}
+
 // Clips pressures at their bounds, and restores their sum by adding pressure as a lower flat would.
-// Returns true if any was clipped.
-bool BoundedSolver::bound() {
-    std::atomic<bool> cut = false;
-    each([&](std::size_t k) {
-        const double inside = std::clamp(p_[k], 0.0, highest_);
-        if (inside != p_[k]) cut.store(true, std::memory_order_relaxed);
-        p_[k] = inside;
-    });
-    if (!given_sum_) return cut;
+void BoundedSolver::bound() {
+    clip();
+    if (!given_sum_) return;
     constexpr int most = 50;
     for (int i = 0; i < most; ++i) {
         struct Sums {
@@ -230,7 +228,6 @@ bool BoundedSolver::bound() {
             if (p_[k] > 0) p_[k] = std::max(p_[k] + missing / sums.room * one_[k], 0.0);
         });
     }
-    return true;
 }
 
 // A round begins on all pixels that penetrate, which are more than those in contact: many end under
@@ -332,7 +329,8 @@ ElementsOutcome BoundedSolver::iterate(double tolerance, int most_rounds, bool e
         prepare_constant(steps == 1);
         descend(steps, manner_.reduction);
         // Rough solutions, which are only starting points, are not worth it.
-        if (tolerance < kUnsettled && outcome.residual > kUnsettled && many_beyond())
+        if (!manner_.repeats && tolerance < kUnsettled && outcome.residual > kUnsettled &&
+            many_beyond())
             release(steps);
         bound();
         exact = exactly && judge_exactly(exact, outcome.residual, outcome.iterations);

@@ -71,6 +71,8 @@ protected:
     virtual void precondition_ones(std::vector<double>& y);
     // Sum of the squared penetrations of pixels outside the set, from the last multiply() with p.
     virtual double outside() { return 0; }
+    // Clips pressures at their bounds.
+    virtual void clip();
     // Updates the set for the next round, including p_, w_ and z_.
     virtual void renew() {}
     // Called when free_ has changed.
@@ -111,7 +113,7 @@ protected:
     void prepare_constant(bool plain);
     void release(int most_steps);
     bool many_beyond();
-    bool bound();
+    void bound();
     bool fell();
     static constexpr int kPixels = 4096, kRows = 8;  // that a thread takes at a time
     static int threads_for(std::size_t pixels) { return pixels >= 16384 ? 0 : 1; }

@@ -126,6 +126,7 @@ private:
     void multiply_by(PeriodicPixels<Real>& pixels, const std::vector<double>& x,
                      std::vector<double>& Kx);
     double outside() override;
+    void clip() override;
     void renew() override;
     void precondition(const std::vector<double>& r, std::vector<double>& y) override;
     void precondition_ones(std::vector<double>& y) override;

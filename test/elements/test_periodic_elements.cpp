@@ -87,6 +87,22 @@ TEST(westergaard) {
     }
 }
 
+// The products do not grow with the range of waves, which the elements always resolve alike.
+TEST(products_of_many_waves) {
+    for (const double pressure : {0.1, 0.6}) {
+        std::vector<std::int64_t> products;
+        for (const int n : {512, 1024}) {
+            double slope = 0;
+            const HeightMap map = rough(n, n / 8, &slope);
+            const auto contact = make_element_contact(map, flat(map), options(1e-6));
+            products.push_back(contact->at_force(pressure * kE * slope).products);
+        }
+        // A round of the iteration takes three or four products.
+        CHECK(products[1] < products[0] + 4);
+        CHECK(products[1] <= 25);
+    }
+}
+
 // Random heights on small grids of any shape, from a first touch to where hardly anything is left
 // of the gap: under a pressure, and at the separation it has.
 TEST(any_grid) {
