@@ -51,7 +51,7 @@ std::vector<Pair> shell_pairs(const Vector& x, const Vector& y, const Vector& a,
     return pairs;
 }
 
-// True if shells are so small compared with the period that the argument holds.
+// True if the shells are small compared with the period, as the proof requires.
 bool shells_fit(const Vector& a, const Period& period) {
     return a.empty() || *std::max_element(a.begin(), a.end()) < std::min(period.x, period.y) / 10;
 }

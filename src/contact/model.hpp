@@ -43,9 +43,9 @@ public:
         (void)lasting;
     }
 
-    // Relaxing bodies: the loads under which the instantaneous body has the present deflections,
-    // where earlier loads last; empty for others. Their pixels, or their contacts, are those that
-    // ever carried load. `level` is the last level.
+    // Relaxing bodies: the loads that would give an elastic body with the instantaneous moduli the
+    // present deflections, which still contain those of earlier loads; no value for other bodies.
+    // The loads act on all pixels, or contacts, that ever carried load. `level` is the last level.
     virtual std::optional<Level> lasting_loads(const Level& level) const {
         return (void)level, std::nullopt;
     }

@@ -63,8 +63,8 @@ double squares_across_rows(const std::vector<Pixel>& pixels, int period) {
             if (k + 1 == n || pixels[k + 1] != Pixel{x + 1, row}) sides.push_back({x + 1, 1, row});
         }
         if (period > 0 && sides[of_row].line == 0 && sides.back().line == period) {
-            sides.pop_back();
-            sides.erase(sides.begin() + std::ptrdiff_t(of_row));
+            sides[of_row] = sides.end()[-2];
+            sides.resize(sides.size() - 2);
         }
     }
     std::ranges::sort(sides);

@@ -17,7 +17,8 @@ public:
     virtual double rate() const = 0;
     virtual double lasting_rate() const = 0;
     // Adds the quantities of the lowered map, under this indenter, to an accepted level. `depths`:
-    // by which the points were lowered, of these `yielded` by yielding; empty: nowhere.
+    // how far each point of the surface was lowered in all; `yielded`: the part of it that is due
+    // to yielding. An empty vector stands for zeros.
     virtual void measure(Level& level, const HeightMap& map, const Indenter& indenter,
                          const std::vector<double>& depths,
                          const std::vector<double>& yielded) const = 0;

@@ -142,7 +142,7 @@ bool names_coordinate(const std::string& word) {
     return lower == "x" || lower == "y" || lower == "xy";
 }
 
-// Words that are a unit of length wherever they stand. Others, such as m and in, are one only in
+// True for words that always mean a unit of length. Others, such as m and in, mean one only in
 // brackets or after a number.
 bool always_a_length(const std::string& word) {
     for (const char* const symbol :

@@ -166,7 +166,8 @@ struct Physics {
     bool lowers = false;    // points of the surface, for good
     bool reshapes = false;  // the surface after each level is a result
     bool pulls = false;     // forces may be negative
-    // It limits the pressures that elastic metals could not bear, or is not for metals.
+    // A warning of elastic pressures above what metals bear would be wrong: this physics limits
+    // the pressures, or describes other materials.
     bool mends_extreme_pressures = false;
     // Why two flats with it may have no solution; null: that is not known to happen.
     const char* may_close_gap = nullptr;

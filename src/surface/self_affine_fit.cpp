@@ -57,8 +57,8 @@ Line line_through(const Sums::Six& s) {
     return line;
 }
 
-// The power law covers the points from `low` to `high` - 1. The points before and after have
-// separate lines.
+// The power law is fitted to the points from `low` to `high` - 1; a line of its own is fitted to
+// those before, and one to those after.
 struct Cut {
     std::size_t low = 0, high = 0;
 };

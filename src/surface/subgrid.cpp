@@ -107,8 +107,8 @@ std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch, 
 
 namespace {
 
-// Largest distance of a summit from a start that is not a maximum [grid steps]; the top of the
-// start's paraboloid is within one step.
+// The search for a summit may also start at a grid point that is not a maximum, if the top of its
+// paraboloid is within one step; largest distance of the summit from such a start [grid steps].
 constexpr int kShortTravel = 1;
 
 // Maps u, at most a few steps outside, to [0, n) on a periodic line of n steps.

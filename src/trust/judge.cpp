@@ -16,7 +16,8 @@ constexpr double kMuchError = 0.1;
 // A larger error of N by the steps of sliding is a doubt.
 constexpr double kLongSteps = 0.01;
 
-// Asperities: largest slope_ratio. Above, the bodies touch beside the summits.
+// Asperities: largest slope_ratio of a good level. Where it is larger, the bodies touch beside the
+// summits.
 constexpr double kSteepest = 0.2;
 
 // Largest slope that counts as small, of the surface (kSteep of run/remarks.cpp) and of the

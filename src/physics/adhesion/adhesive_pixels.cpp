@@ -601,7 +601,8 @@ void AdhesivePixels::divide(Level& level, double shortest) {
     divide(level, shortest);
 }
 
-// A trial starts from the last one; its state may be another one than that which the path reaches.
+// A trial starts from the last trial, so that it may find another equilibrium than the one which
+// the path of the bodies reaches.
 Level AdhesivePixels::solve(double Z, bool trial) {
     const std::optional<Past> last = std::exchange(tried, std::nullopt);
     Level level = step(Z, trial && last ? &*last : nullptr);

@@ -58,8 +58,8 @@ public:
     // if none was found near; s is then undefined, and weakest() is the position among the attached
     // of the one that becomes unstable. `exact`: forces, phi() and energy() are those of a full
     // product; otherwise its error is below a tenth of the tolerance.
-    // `least`: smallest number of Newton steps; if positive, s is the state of rest_on() but for a
-    // jump, and the noise of that does not count.
+    // `least`: smallest number of Newton steps. If positive, s is the state that rest_on() left
+    // apart from a jump, and the rounding errors of that state do not count as convergence.
     bool solve(const WorkingSet& set, double tolerance, bool exact, std::vector<double>& s,
                int least = 0);
     // Takes the forces in the states s as those from whose change further products are found, if

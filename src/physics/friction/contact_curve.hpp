@@ -24,8 +24,8 @@ public:
         last_[1].reset();
     }
 
-    // Which contacts have their last level here; recall() takes the levels of these contacts, which
-    // have been restored.
+    // Which contacts of the memory have a level here. After a restore these contacts have solved
+    // that level again, and recall() takes it from them.
     std::array<bool, 2> known() const { return {last_[0] != nullptr, last_[1] != nullptr}; }
     void recall(std::array<bool, 2> known) {
         for (const auto k : indices(known))

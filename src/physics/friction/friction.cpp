@@ -269,8 +269,7 @@ struct SlippingStep {
 }  // namespace
 
 // Limits the free deflections to the cone |u| <= c (delta - s). They change by at most c per unit
-// of s, so that all springs above one that leaves the cone are outside as well: the springs s* < s
-// <= delta slip.
+// of s. If one spring leaves the cone, so do all with a larger s: the springs s* < s <= delta slip.
 void FrictionHistory::slip(LoadCurve& curve, State& state, double dd, Slide dxi, double old_delta,
                            std::vector<Node> free) const {
     const double c = friction_.slide_per_approach(), m = friction_.ratio;

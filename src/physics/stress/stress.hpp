@@ -36,8 +36,8 @@ struct LargestStress {
     void take(const LargestStress& other);
 };
 
-// Traction that a pressure of 1 is accompanied by where the bodies slide everywhere: friction
-// coefficient times the direction in which body 2 slides.
+// Tangential traction per unit of pressure in full slip: the friction coefficient times the
+// direction in which body 2 slides.
 struct SlidingTraction {
     double x = 0, y = 0;
     bool any() const { return x != 0 || y != 0; }

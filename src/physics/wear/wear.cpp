@@ -153,7 +153,7 @@ void print_worn(std::ostream& out, const RunFacts& run) {
     const char* const l = units.length_unit.c_str();
     const LevelValues& last = run.levels.back();
     out << format(
-        "  %.4g %s3 are worn off, up to %.4g %s deep, and the surface has the rms height %.4g "
+        "  %.4g %s3 have worn off, up to %.4g %s deep, and the rms height of the surface is %.4g "
         "%s. Results depend on the loading history.\n",
         last.worn_volume, l, last.wear_depth_max, l, last.worn_rms, l);
 }
