@@ -59,8 +59,14 @@ def pull(results, options):
         limits = axis.axis()
         axis.plot(smooth[1], smooth[0], ":", color=GREY, gid="jkr")
         axis.axis(limits)  # far larger than the loop where roughness keeps the bodies apart
+        left, right, low, high = limits
+        seen = (left < smooth[1]) & (smooth[1] < right) & (low < smooth[0]) & (smooth[0] < high)
         least = amount(abs(smooth[0].min()), found[0].dimension("force"))
-        page.entry(f"smooth ball (JKR), pull-off {least}", color=GREY, ls=":")
+        page.entry(
+            f"smooth ball (JKR), pull-off {least}" + ("" if seen.any() else ": outside"),
+            color=GREY,
+            ls=":",
+        )
     label(axis, "x", "separation $Z_0$", found[0].dimension("separation"))
     label(axis, "y", "force $N$", found[0].dimension("force"))
     what = "Approach and pull-off"

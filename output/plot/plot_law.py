@@ -10,7 +10,7 @@ from plot_curves import begin, title
 from plot_style import GREY, label
 
 _erf = np.vectorize(math.erf)
-DASHES = (0, (6, 1.5, 1, 1.5))
+PALE = "0.65"
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "export"))
 
 
@@ -42,7 +42,7 @@ def law(results, options):
         page.entry("Persson", color=GREY, ls=":")
     if interface.summits:
         page.entry("Greenwood, Williamson", color=GREY, ls="--")
-        page.entry("Greenwood, Tripp", color=GREY, ls=DASHES)
+        page.entry("Greenwood, Tripp", color=PALE)
     page.entry("Patir, Cheng: isotropic", color=GREY, ls="-.")
     # Patir and Cheng's h is the distance of the mean planes of rigid, truncated surfaces.
     mean = truncated(H)
@@ -75,7 +75,7 @@ def _pressure(axis, interface, ratio, H, colour):
         one = greenwood_williamson((sigma * H - height) / deviation, density, radius, deviation)
         axis.plot(mean, one, "--", color=GREY, lw=1.0)
         # As in codes for lubrication: of the surfaces' mean planes and rms height.
-        axis.plot(mean, greenwood_tripp(H, density, radius, sigma), ls=DASHES, color=GREY, lw=1.0)
+        axis.plot(mean, greenwood_tripp(H, density, radius, sigma), color=PALE, lw=1.0)
     axis.set_yscale("log")
     axis.set_ylim(0.5 * load[touches].min(), 3 * load[touches].max())
     label(axis, "y", "pressure $p/E^*$")

@@ -108,11 +108,11 @@ class Result:
         of, mean = ("area" if name == "contact_area" else name) + "_error_expected", abs(
             self.mean(name)
         )
-        worst = (
-            np.nan_to_num(abs(self[of] * self[name]).reshape(-1, self.steps)).max(axis=0)
-            if of in self
-            else 0 * mean
-        )
+        worst = 0 * mean
+        if of in self:
+            # An error with a unit (of a length) is absolute.
+            size = 1.0 if self.unit(of) else self[name]
+            worst = np.nan_to_num(abs(self[of] * size).reshape(-1, self.steps)).max(axis=0)
         return np.divide(worst, mean, out=np.zeros(self.steps), where=mean > 0)
 
     def standard_error(self, values):

@@ -103,6 +103,7 @@ def section(results, options):
     stresses = result[f"field_{name}"][where]
     worst = np.unravel_index(np.nanargmax(stresses), stresses.shape)
     page = Page(options, 2, aspect=0.9, columns=2)
+    page.figure.get_layout_engine().set(wspace=0.1)
     side, plane = page.axes
     dimension = result.dimension(f"field_{name}")
     half = [(v[-1] - v[0]) / (v.size - 1) / 2 for v in (x, y)]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from plot_curves import begin, title
+from plot_curves import begin, error_band, title
 from plot_style import label
 
 
@@ -19,15 +19,19 @@ def _area(flat):
     return "contact_area", "true contact area $A$"
 
 
-def _against(clock, text, results, options, panels, first, logarithmic=()):
+def _against(clock, text, results, options, panels, first, columns=2, logarithmic=()):
     """Panels of quantities against the clock since the first level on a logarithmic axis, the
     first level as a dotted line."""
-    page, looks = begin(results, options, len(panels), columns=2)
+    page, looks = begin(results, options, len(panels), columns=columns)
     for axis, (name, name_text) in zip(page.axes, panels):
         for result, (line, colour, called) in zip(results, looks):
             t, y = result[clock] - result[clock][0], result.mean(name)
             axis.plot(t[1:], y[1:], ls=line, color=colour, marker=".", ms=3, gid="curve")
-            axis.axhline(y[0], ls=":", color=colour, lw=1)
+            if y[0] > 0 or name not in logarithmic:
+                axis.axhline(y[0], ls=":", color=colour, lw=1)
+            if result[name].ndim == 2:
+                off = result.error(name) * abs(y)
+                error_band(page, axis, t[1:], y[1:], off[1:], "", color=colour, alpha=0.2)
             if called:
                 page.entry(called, color=colour, ls=line)
             page.status(axis, t, np.where(t > 0, y, np.nan), result, colour)
@@ -61,8 +65,8 @@ def time(results, options):
 
 
 def wear(results, options):
-    """Contact area, rms height, largest pressure and separation (or force) against the distance of
-    sliding."""
+    """Contact area, rms height, largest worn depth, worn volume, largest pressure and separation
+    (or force) against the distance of sliding."""
     results = [r for r in results if "distance" in r and "worn_volume" in r and r.steps > 2]
     if not results:
         return None
@@ -70,6 +74,8 @@ def wear(results, options):
     panels = [
         _area(flat),
         ("worn_rms", "rms height"),
+        ("wear_depth_max", "largest worn depth"),
+        ("worn_volume", "worn volume"),
         ("pressure_max", "largest pressure"),
         _carried(results, flat),
     ]
@@ -80,6 +86,7 @@ def wear(results, options):
         options,
         panels,
         "first level, without sliding",
-        (panels[0][0], "pressure_max"),
+        columns=3,
+        logarithmic=(panels[0][0], "wear_depth_max", "worn_volume", "pressure_max"),
     )
     return page.finish(title(results, "Wear against the distance of sliding"))
