@@ -95,6 +95,75 @@ TEST(test_jkr) {
     }
 }
 
+// A sphere of radius 1 with axisymmetric waves A (1 - cos(2 pi r/lambda)) on a half-space of E* = 1,
+// in contact within r < a (Guduru, J. Mech. Phys. Solids 55, 2007). H(a) is the approach without
+// adhesion; at the approach D the edge releases G = (H - D)^2/(2 pi a).
+struct WavySphere {
+    static constexpr int kRadii = 4000;
+    double w, A, lambda, widest;  // the largest radius of the path is less than `widest`
+    std::vector<double> H = heights();
+    double lost = 0, pull_off = 0;
+
+    double radius(int i) const { return widest * i / kRadii; }
+    std::vector<double> heights() const {
+        std::vector<double> all(kRadii + 1);
+        for (int i = 0; i <= kRadii; ++i)
+            for (int k = 0; k < 200; ++k) {
+                const double r = radius(i) * std::sin((k + 0.5) / 200 * pi / 2),
+                             q = 2 * pi / lambda;
+                all[i] += radius(i) * (r + A * q * std::sin(q * r)) * pi / 400;
+            }
+        return all;
+    }
+    double release(int i, double D) const { return std::pow(H[i] - D, 2) / (2 * pi * radius(i)); }
+    bool grows(int i, double D) const { return H[i] < D || release(i, D) < w; }
+    double force(int i, double D) const {
+        double sum = 0;
+        for (int j = 0; j <= i; ++j) sum += H[j] * widest / kRadii;
+        return 2 * (D * radius(i) - sum);
+    }
+    // Touches at D = 0, is pressed to `most` and pulled off, as far as its edge moves at each of
+    // many approaches; what is not released by the bodies is lost.
+    void go(double most) {
+        int i = 0;
+        for (int k = 0; k < 30000; ++k) {
+            const double D = k < 10000 ? most * k / 1e4 : most - 4 * most * (k - 10000) / 2e4;
+            const auto move = [&](int to) {
+                lost += std::abs(w - release(std::max(i, to), D)) * pi *
+                        std::abs(std::pow(radius(to), 2) - std::pow(radius(i), 2));
+                i = to;
+            };
+            if (i == 0) move(1);
+            while (grows(i + 1, D)) move(i + 1);
+            while (i > 0 && !grows(i, D)) move(i - 1);
+            if (i == 0) return;
+            if (k % 50 == 0) pull_off = std::min(pull_off, force(i, D));
+        }
+    }
+};
+
+// The loop of a wavy sphere, whose edge jumps inwards and outwards.
+TEST(test_wavy_sphere) {
+    const Jkr smooth{1e-4};
+    const double unit = smooth.at_rest() * smooth.at_rest();
+    WavySphere truth{smooth.w, 0.0562 * unit, 0.53 * smooth.at_rest(), 2 * smooth.at_rest()};
+    truth.go(0.28 * unit);
+    HeightMap map = sphere(smooth, 128);
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i) {
+            double& z = map.row(j)[i];
+            z -= truth.A * (1 - std::cos(2 * pi * std::sqrt(-2 * z) / truth.lambda));
+        }
+    const auto contact = make_element_contact(map, flat_over(map), sharp(smooth.w));
+    Level level;
+    for (int k = 0; k <= 30; ++k)
+        level = contact->at_separation(-0.28 * unit * (k < 5 ? 0.2 * k : 1 - 0.1 * (k - 5)));
+    CHECK(level.contacts == 0);
+    // First order in the pixel, of which 32 fit into the radius at zero force.
+    CHECK_RELATIVE(level.energy_lost, truth.lost, 1.0 / 32);
+    CHECK_RELATIVE(level.least_force, truth.pull_off, 0.6 / 32);
+}
+
 // Pull-off and energy lost do not depend on the number of levels, but for the last force before
 // contact is lost.
 TEST(test_number_of_levels) {
