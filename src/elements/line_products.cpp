@@ -77,6 +77,14 @@ double spread_of_far_images(double x, double y, double L, int exact, double acro
     return sum * across * along;
 }
 
+// pi E* times the deflection at a distance across from a strip of width 2 h under unit pressure that
+// is endless along the axis, 0 at the distance D from a narrow one: the sum of all images of a pixel
+// as long as the period.
+double strip(double x, double h, double D) {
+    if (x == 0) return 4 * h * (1 - std::log(h / D));
+    return 4 * h - 4 * x * std::atanh(h / x) - 2 * h * std::log((x - h) * (x + h) / (D * D));
+}
+
 }  // namespace
 
 std::vector<double> line_deflections(const Substrate& substrate, const Period& period, int nx,
@@ -85,9 +93,17 @@ std::vector<double> line_deflections(const Substrate& substrate, const Period& p
     const int width = along_x ? ny : nx, along = along_x ? nx : ny;
     const std::size_t half = at(along) / 2 + 1;
     const double step = along_x ? dx : dy, across_step = along_x ? dy : dx, L = period.length();
-    const LineKernel kernel(L, period.reference > 0 ? period.reference : width * across_step);
+    const double D = period.reference > 0 ? period.reference : width * across_step;
+    const double area = dx * dy;
     std::vector<double> coefficient(at(width) * half);
-    const double area = dx * dy, aspect = step / across_step;
+    if (along == 1) {
+        for (const int i : indices(width))
+            coefficient[at(i)] = substrate.near() * (strip(i * across_step, 0.5 * across_step, D) +
+                                                     area * raised);
+        return coefficient;
+    }
+    const LineKernel kernel(L, D);
+    const double aspect = step / across_step;
     constexpr double kFar = 64;
     const int exact = int(std::ceil(kFar * std::max(dx, dy) / L));
     parallel_for(width, 8, 0, [&](int i) {
@@ -135,7 +151,8 @@ public:
         constexpr double same = 1e-9;
         if (std::abs(period_ * step - L) > same * L)
             throw Error(Failure::internal, "the map is not the period of a line contact");
-        const LineKernel kernel(L, period.reference > 0 ? period.reference : width_ * across_step);
+        const double D = period.reference > 0 ? period.reference : width_ * across_step;
+        const LineKernel kernel(L, D);
         const auto point = [&](int i, int j) {
             const double x = i * across_step, y = j * step;
             return kernel.images(x, y) + (i > 0 || j > 0 ? 1 / std::hypot(x, y) : kInfinity);
@@ -157,7 +174,8 @@ public:
         multiply(arrange(pixels), p, w, Accuracy::inner);
     }
     PixelStencil inverse(double diagonal) const override {
-        return inverse_stencil(aspect_, with_diagonal({}, diagonal * modulus_ / dx_));
+        const double aspect = period_ == 1 && !along_x_ ? kEndless : aspect_;
+        return inverse_stencil(aspect, with_diagonal({}, diagonal * modulus_ / dx_));
     }
     double shift() const override { return shift_; }
     double error(Accuracy accuracy) const override {

@@ -46,7 +46,7 @@ PeriodicElements::PeriodicElements(const Relief& relief, const Substrate& substr
       relief_(relief),
       substrate_(substrate),
       hardness_(highest),
-      aspect_(relief.dy / relief.dx),
+      aspect_(relief.ny > 1 ? relief.dy / relief.dx : kEndless),
       inner_(relief.nx, relief.ny, 1, aspect_, share_of_modes(substrate_, relief_.dx)),
       plane_(relief.nx, relief.ny) {
     mean_ = zero_ = mean_height();
@@ -71,8 +71,8 @@ PeriodicElements::PeriodicElements(const Relief& relief, const Substrate& substr
 PeriodicElements::PeriodicElements(const PeriodicElements& finer,
                                    const std::vector<double>& heights)
     : BoundedSolver(finer.highest_, {kSteps, kReduction, kQuick, true}),
-      relief_{finer.relief_.nx / 2, finer.relief_.ny / 2, 2 * finer.relief_.dx,
-              2 * finer.relief_.dy, heights.data(),       finer.relief_.nx / 2},
+      relief_{finer.relief_.nx / 2, (finer.relief_.ny + 1) / 2, 2 * finer.relief_.dx,
+              2 * finer.relief_.dy, heights.data(),             finer.relief_.nx / 2},
       substrate_(finer.substrate_),
       hardness_(finer.hardness_),
       unit_(2 * finer.unit_),
@@ -113,13 +113,14 @@ PeriodicPixels<double>& PeriodicElements::fine() {
 }
 
 std::vector<double> PeriodicElements::coarse_heights() const {
-    const int nx = relief_.nx / 2, ny = relief_.ny / 2;
+    const int nx = relief_.nx / 2, ny = (relief_.ny + 1) / 2;
     std::vector<double> heights(at(nx) * at(ny));
     parallel_for(ny, kRows, threads(), [&](int j) {
+        const int low = 2 * j, high = std::min(low + 1, relief_.ny - 1);
         for (int i = 0; i < nx; ++i)
             heights[at(j) * at(nx) + at(i)] =
-                0.25 * (height(2 * j, 2 * i) + height(2 * j, 2 * i + 1) + height(2 * j + 1, 2 * i) +
-                        height(2 * j + 1, 2 * i + 1));
+                0.25 * (height(low, 2 * i) + height(low, 2 * i + 1) + height(high, 2 * i) +
+                        height(high, 2 * i + 1));
     });
     return heights;
 }
@@ -365,8 +366,9 @@ ElementsOutcome PeriodicElements::solve(Given given, double tolerance, int most_
                                         bool finest) {
     bool started = false;
     const bool closed = finest && given.is_pressure && given.value >= closing_pressure();
-    if (!closed && relief_.nx % 2 == 0 && relief_.ny % 2 == 0 &&
-        std::min(relief_.nx, relief_.ny) >= 2 * kShortest) {
+    const bool row = relief_.ny == 1;
+    if (!closed && relief_.nx % 2 == 0 && (row || relief_.ny % 2 == 0) &&
+        std::min(relief_.nx, row ? relief_.nx : relief_.ny) >= 2 * kShortest) {
         // The memory of the coarser grid is free again before this one is solved.
         const std::vector<double> heights = coarse_heights();
         const auto coarse = std::unique_ptr<PeriodicElements>(new PeriodicElements(*this, heights));

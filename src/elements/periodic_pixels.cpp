@@ -292,6 +292,22 @@ void PeriodicPixels<Real>::columns(Answer answer) {
         });
 }
 
+// The waves of a single row, which needs no transforms along y.
+template <class Real>
+void PeriodicPixels<Real>::scale_row(Answer answer) {
+    Real* const modes = plane_.get();
+    const double unit = answer == Answer::deflection ? 2.0 / nx_ : 0.5 / nx_;
+    for (int i = 0; i <= nx_ / 2; ++i) {
+        const double k = 2 * std::numbers::pi * i / nx_;  // times dx
+        double factor = !half_space_ ? 1 : answer == Answer::deflection ? unit / k : unit * k;
+        if (i == 0 && half_space_) factor = 0;
+        const double share = layered_ ? static_cast<double>(layered_[at(i)]) : 1.0;
+        factor *= answer == Answer::deflection ? share : 1 / share;
+        modes[2 * i] *= static_cast<Real>(factor);
+        modes[2 * i + 1] *= static_cast<Real>(factor);
+    }
+}
+
 template <class Real>
 void PeriodicPixels<Real>::forward_rows(const Load& load) {
     // The padding after the modes of a row is transformed with them, so it must be initialised.
@@ -320,7 +336,10 @@ void PeriodicPixels<Real>::backward_rows(const Take& take) {
 template <class Real>
 void PeriodicPixels<Real>::apply(const Load& load, const Take& take, Answer answer) {
     forward_rows(load);
-    columns(answer);
+    if (ny_ == 1)
+        scale_row(answer);
+    else
+        columns(answer);
     backward_rows(take);
 }
 

@@ -58,6 +58,7 @@ private:
     void columns_to_plane(int block, std::size_t worker);
     void forward(const Columns& columns, int column);
     void backward(const Columns& columns, int column);
+    void scale_row(Answer answer);
     void make_plans();
     template <class Factor>
     void set_factors(Factor&& factor);

@@ -7,7 +7,7 @@ class PeriodicProducts final : public PixelProducts {
 public:
     PeriodicProducts(const Substrate& substrate, const PointGrid& map)
         : nx_(map.nx),
-          aspect_(map.dy / map.dx),
+          aspect_(map.ny > 1 ? map.dy / map.dx : kEndless),
           unit_(map.dx / substrate.modulus()),
           share_(share_of_modes(substrate, map.dx)),
           single_(map.nx, map.ny, 1, aspect_, share_),

@@ -34,7 +34,8 @@ const HeightMap& require_elements(const HeightMap& heights, const Indenter& inde
     if (heights.nx < 1 || heights.ny < 1 || !(heights.dx > 0) || !(heights.dy > 0))
         throw Error(Failure::bad_input, "boundary elements: the map of heights is empty");
     constexpr double thinnest = 32;
-    if (heights.dx > thinnest * heights.dy || heights.dy > thinnest * heights.dx)
+    const bool ridges = heights.ny == 1 && std::isfinite(indenter.period.y);
+    if (!ridges && (heights.dx > thinnest * heights.dy || heights.dy > thinnest * heights.dx))
         throw Error(Failure::bad_input, "boundary elements: pixels of " + text_of(heights.dx) +
                                             " by " + text_of(heights.dy) +
                                             " are longer than 32 times their width");

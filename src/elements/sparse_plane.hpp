@@ -39,7 +39,9 @@ std::function<double(double)> with_diagonal(const std::function<double(double)>&
                                             double diagonal);
 
 // Preconditioner: K^-1 of PeriodicPixels with dx = 1, of modes |k|/2/(1 + share), between pixels at
-// most six apart; positive semidefinite.
+// most six apart; positive semidefinite. Pixels of a surface of one row, which is constant along y,
+// have the aspect kEndless: its waves run along x.
+inline constexpr double kEndless = 1e6;
 PixelStencil inverse_stencil(double aspect, const std::function<double(double)>& share = {});
 
 class SparsePlane {

@@ -129,6 +129,50 @@ TEST(tiling_a_roller_along_its_axis_changes_nothing) {
         for (const auto& other : values) CHECK_RELATIVE(other[k], values[0][k], 1e-9);
 }
 
+TEST(one_row_is_a_surface_constant_along_the_axis) {
+    // The same roller on 8 rows of square pixels, and on one row of pixels 300 times as long.
+    const double R = 12, E = 1.1e5, P = 50, step = 0.01;
+    const auto wavy = [](double x, double) { return 1e-4 * std::cos(40 * x); };
+    const HeightMap rows = map_of(120, 8, step, wavy);
+    HeightMap row = map_of(120, 1, step, wavy);
+    row.dy = 300 * step;
+    SolverOptions options;
+    options.tolerance = 1e-11;
+    const auto many = make_element_contact(rows, roller(R, E, 8 * step), options);
+    const auto one = make_element_contact(row, roller(R, E, row.dy), options);
+    const Level a = many->at_force(P * 8 * step), b = one->at_force(P * row.dy);
+    CHECK(a.converged && b.converged);
+    CHECK_RELATIVE(b.separation, a.separation, 1e-9);
+    CHECK_RELATIVE(b.area / row.dy, a.area / (8 * step), 1e-9);
+    CHECK_RELATIVE(b.energy / row.dy, a.energy / (8 * step), 1e-9);
+    CHECK_RELATIVE(one->stiffness() / row.dy, many->stiffness() / (8 * step), 1e-9);
+    CHECK(b.contacts == a.contacts);
+}
+
+TEST(westergaard_wave) {
+    // z = Delta cos(2 pi x/lambda) on a flat, with the mean pressure p: A/A0 = (2/pi) asin sqrt(p/p*)
+    // and the largest pressure 2 sqrt(p p*), p* = pi E* Delta/lambda (Johnson 1985, section 13.2).
+    // An edge is known to half a pixel, the pressure to second order in the pixels.
+    const double E = 100, lambda = 1, Delta = 1e-3, full = pi * E * Delta / lambda;
+    for (const int n : {512, 1024, 2048, 16384}) {
+        HeightMap row = map_of(n, 1, lambda / n, [&](double x, double) {
+            return Delta * std::cos(2 * pi * x / lambda + 0.1234);
+        });
+        row.dy = 1;
+        ShapeKeys keys;
+        Indenter flat{E, make_shape(shape_number("sphere"), keys), 0, 0};
+        flat.period = {lambda, row.dy};
+        const auto contact = make_element_contact(row, flat, exact());
+        for (const double share : {0.01, 0.1, 0.3, 0.6, 0.9}) {
+            const Level level = contact->at_force(share * full);
+            CHECK_CLOSE(level.area, 2 / pi * std::asin(std::sqrt(share)),
+                        std::max(1e-4, 1.25 / n));
+            CHECK_RELATIVE(level.pressure_max, 2 * full * std::sqrt(share),
+                           3 / (share * n * n) + 2e-6);
+        }
+    }
+}
+
 TEST(energy_and_stiffness_of_a_line) {
     const double step = 1.0 / 48, E = 100;
     const HeightMap map = map_of(40, 48, step, rough);
