@@ -33,6 +33,7 @@ import plot_friction
 import plot_law
 import plot_line
 import plot_map
+import plot_profile
 import plot_radial
 import plot_seal
 import plot_spots
@@ -62,6 +63,7 @@ PICTURES = {
     "compare": plot_compare.compare,
     "distributions": plot_distributions.distributions,
     "surface": plot_surface.surface,
+    "profile": plot_profile.profile,
     "texture": plot_texture.texture,
     "stiffness": plot_curves.stiffness,
     "resistance": plot_curves.resistance,

@@ -17,8 +17,14 @@ enum class Twins { radial, directional };
 inline constexpr std::array kTwinsNames = {"radial", "directional"};
 enum class TwinHeights { gaussian, measured };
 inline constexpr std::array kTwinHeightsNames = {"gaussian", "measured"};
-enum class Source { synthetic, heights, asperities, spectrum };
-inline constexpr std::array kSourceNames = {"synthetic", "heights", "asperities", "spectrum"};
+enum class Source { synthetic, heights, asperities, spectrum, profile };
+inline constexpr std::array kSourceNames = {"synthetic", "heights", "asperities", "spectrum",
+                                            "profile"};
+enum class Finish { none, polished, blasted };
+inline constexpr std::array kFinishNames = {"none", "polished", "blasted"};
+// How the spectrum of the surface that has the given profile follows from that of the profile.
+enum class ProfileSurface { self_affine, inversion };
+inline constexpr std::array kProfileSurfaceNames = {"self_affine", "inversion"};
 // periodic_x, periodic_y: line contact; the surface repeats along this axis only.
 enum class Boundary { free, periodic, periodic_x, periodic_y };
 inline constexpr std::array kBoundaryNames = {"free", "periodic", "periodic_x", "periodic_y"};
@@ -73,6 +79,8 @@ struct Case {
         double aspect = 1.0, direction = 0.0, skewness = 0.0, kurtosis = 3.0;
         Twins twins = Twins::radial;
         TwinHeights twin_heights = TwinHeights::gaussian;
+        Finish finish = Finish::none;
+        std::optional<double> Ra;  // of a finish, instead of sigma
         Normalise normalise = Normalise::sample;
         Detrend detrend = Detrend::plane;
         Missing missing = Missing::refuse;
@@ -81,8 +89,11 @@ struct Case {
         std::string height_unit;      // of a map without units; empty: run%length_unit
         std::string coordinate_unit;  // of its x and y; empty: run%length_unit
         std::optional<double> pixel;  // of a map without coordinates: step between points [length]
-        std::optional<double> window[4];    // x0, x1, y0, y1: part of the map to use; default: all
-        double outliers = 0;                // 0: no search
+        std::optional<double> window[4];  // x0, x1, y0, y1: part of the map to use; default: all
+        double outliers = 0;              // 0: no search
+        double cutoff_long = 0;           // of a profile; 0: no filter
+        double thickness = 1;             // side along y of the surface of a profile
+        ProfileSurface profile_surface = ProfileSurface::self_affine;
         std::vector<double> missing_value;  // heights in a file that mean a missing point
     } surface;
     struct AsperityKeys {
@@ -163,6 +174,20 @@ struct Case {
         }
     } output;
 };
+
+// What a finishing process makes of a surface of which a drawing has only Ra or Rq: typical values,
+// each with its source (model_choice.cpp). An assumption, not a measurement.
+struct FinishedSurface {
+    double hurst = 0, shortest = 0, longest = 0;  // wavelengths [length]
+    double sigma = 0;                             // [length]
+    std::string sources;
+};
+std::optional<FinishedSurface> finished_surface(const Case& settings);  // none: no surface%finish
+
+// True if the surface is read from a file of heights: a map or a profile.
+inline bool reads_heights(const Case& settings) {
+    return settings.surface.source == Source::heights || settings.surface.source == Source::profile;
+}
 
 struct Spectrum;
 // The spectrum of a surface with source = 'synthetic'.

@@ -81,7 +81,8 @@ void keys_without_meaning(const Reading& reading, std::vector<Fault>& faults) {
     if (given("indentation%levels") && !std::ranges::all_of(replaced, given))
         for (const char* name : replaced) refuse(name, "beside levels");
     const Source source = reading.settings.surface.source;
-    if (!given("surface%source") || (source != Source::heights && source != Source::asperities))
+    if (!given("surface%source") ||
+        (!reads_heights(reading.settings) && source != Source::asperities))
         return;
     for (const char* name : {"surface%n", "surface%hurst", "surface%L_lambda_l",
                              "surface%L_lambda_s", "surface%plateau", "surface%normalise"})

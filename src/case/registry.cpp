@@ -62,9 +62,11 @@ std::vector<Key> keys_of_solids() {
 
 std::vector<Key> keys_of_surface() {
     return {
-        choice(RSC_KEY(surface, source), kSourceNames,
-               "synthetic: a random surface with the keys below; heights, asperities: read from "
-               "`file`; spectrum: random surfaces with the spectrum in `file`"),
+        choice(
+            RSC_KEY(surface, source), kSourceNames,
+            "synthetic: a random surface with the keys below; heights, asperities: read from "
+            "`file`; spectrum: random surfaces with the spectrum in `file`; profile: heights along "
+            "a line (NetCDF, .sdf, .smd, text), as a surface that is constant along y"),
         text(RSC_KEY(surface, file), 4096,
              "file with the heights (NetCDF, .gwy, .sdf, text), the asperities or the spectrum "
              "(NetCDF, text); for heights also a pattern such as maps/*.gwy: "
@@ -100,6 +102,14 @@ std::vector<Key> keys_of_surface() {
         choice(RSC_KEY(surface, twin_heights), kTwinHeightsNames,
                "source = 'spectrum': Gaussian heights, or the height distribution of the map that "
                "the spectrum was measured on"),
+        choice(
+            RSC_KEY(surface, finish), kFinishNames,
+            "source = 'synthetic': instead of hurst and wavelengths, those that are typical of a "
+            "polished or sand-blasted surface, of which only Ra or sigma is known: an "
+            "assumption, which is printed with its sources"),
+        number(RSC_KEY(surface, Ra), "length", kPositive,
+               "with a finish: arithmetic mean roughness, as on a drawing, instead of sigma",
+               "from sigma"),
         choice(RSC_KEY(surface, normalise), kNormaliseNames,
                "sample: each surface has exactly the rms height sigma; ensemble: on average"),
     };
@@ -141,6 +151,17 @@ std::vector<Key> keys_of_height_maps() {
             "are filled like missing ones, and groups of up to 12 points alone inside a missing "
             "part that differ as much from its filling; 0: none; 6 removes spikes and keeps "
             "roughness"),
+        number(RSC_KEY(surface, cutoff_long), "length", kNotNegative,
+               "long-wave cutoff (lambda_c) of the Gaussian filter (ISO 16610-21) of a profile, 0 "
+               "for none; half of it is lost at each end. filter_cutoff is its short-wave cutoff "
+               "(lambda_s)"),
+        number(RSC_KEY(surface, thickness), "length", kPositive,
+               "side along y of the surface of a profile, which is constant along y: forces, areas "
+               "and energies are those of this length"),
+        choice(RSC_KEY(surface, profile_surface), kProfileSurfaceNames,
+               "spectrum, in the result, of the surfaces that have such profiles, with the lay of "
+               "`aspect` and `direction`: the self-affine one fitted to the profile's, or its "
+               "inversion without a model"),
         list(RSC_KEY(surface, missing_value), 16, "", kAny, "none",
              "heights that mean a missing point: for text and NetCDF, as written in the file; for "
              ".gwy and .sdf, in run%length_unit"),

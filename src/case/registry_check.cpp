@@ -199,8 +199,8 @@ private:
         require(s.source == Source::synthetic || !s.file.empty(),
                 {"surface%source", "surface%file"}, "needs a file");
         check_window("surface%window", "surface%source", s.window);
-        const bool of_file = s.source == Source::heights || s.source == Source::asperities;
-        const bool maps = s.source == Source::heights || shape() == "map";
+        const bool of_file = reads_heights(c_) || s.source == Source::asperities;
+        const bool maps = reads_heights(c_) || shape() == "map";
         const std::pair<const char*, bool> of_maps[] = {
             {"surface%height_unit", !s.height_unit.empty()},
             {"surface%coordinate_unit", !s.coordinate_unit.empty()},
@@ -212,9 +212,11 @@ private:
             require(maps || !given, {key, "surface%source"},
                     "is only for heights read from files, here source = ",
                     get_key(c_, "surface%source"));
+        check_profile();
+        check_finish();
         if (of_file) {
             const bool several =
-                s.source == Source::heights && s.file.find_first_of("*?[") != std::string::npos;
+                reads_heights(c_) && s.file.find_first_of("*?[") != std::string::npos;
             require(several || c_.run.realizations == 1, {"run%realizations", "surface%source"},
                     "a surface from one file is one realization; for several height maps give a "
                     "pattern such as maps/*.gwy as the file");
@@ -234,21 +236,63 @@ private:
         if (s.source == Source::spectrum) return;
         require(!directional, {"surface%twins", "surface%source"}, "needs source = 'spectrum'");
         require(!measured, {"surface%twin_heights", "surface%source"}, "needs source = 'spectrum'");
-        require(s.L_lambda_s > s.L_lambda_l, {"surface%L_lambda_s", "surface%L_lambda_l"},
-                "must be larger than L_lambda_l = ", from_real(s.L_lambda_l));
-        require(s.n > 2 * shortest(), {"surface%n", "surface%L_lambda_s", "surface%aspect"},
+        const Spectrum spectrum = self_affine_spectrum(c_);
+        require(spectrum.L_lambda_s > spectrum.L_lambda_l,
+                {"surface%L_lambda_s", "surface%L_lambda_l"},
+                "must be larger than L_lambda_l = ", from_real(spectrum.L_lambda_l));
+        require(s.n > 2 * shortest(),
+                {"surface%n", "surface%L_lambda_s", "surface%aspect", "surface%finish"},
                 "must be larger than 2 L_lambda_s", s.aspect == 1 ? "" : " sqrt(aspect)", " = ",
                 from_real(2 * shortest()), " so that the grid resolves the shortest wavelength");
-        const double L = s.L.value_or(1.0);
+        const double L = spectrum.L;
         require(std::ranges::none_of(c_.indentation.centre,
                                      [&](const auto& x) { return x && (*x < 0 || *x > L); }),
                 {"indentation%centre", "surface%L"},
                 "must lie on the surface, 0 to L = ", from_real(L));
     }
 
+    // A finish replaces the spectrum, and needs a length of heights.
+    void check_finish() {
+        const Case::Surface& s = c_.surface;
+        const Case::Surface unset;
+        const bool finish = s.finish != Finish::none;
+        require(finish || !s.Ra, {"surface%Ra", "surface%finish"}, "is for a finish; give sigma");
+        if (!finish) return;
+        require(s.source == Source::synthetic, {"surface%finish", "surface%source"},
+                "is for source = 'synthetic'");
+        require(s.Ra.has_value() != s.sigma.has_value(),
+                {"surface%finish", "surface%Ra", "surface%sigma"},
+                "give either Ra or sigma, of the drawing");
+        require(s.hurst == unset.hurst && s.L_lambda_l == unset.L_lambda_l &&
+                    s.L_lambda_s == unset.L_lambda_s,
+                {"surface%finish", "surface%hurst", "surface%L_lambda_l", "surface%L_lambda_s"},
+                "replaces hurst, L_lambda_l and L_lambda_s");
+    }
+
+    void check_profile() {
+        const Case::Surface& s = c_.surface;
+        const bool profile = s.source == Source::profile;
+        require(profile || s.cutoff_long == 0, {"surface%cutoff_long", "surface%source"},
+                "is for source = 'profile'");
+        require(s.cutoff_long == 0 || s.cutoff_long > s.filter_cutoff,
+                {"surface%cutoff_long", "surface%filter_cutoff"},
+                "must be longer than filter_cutoff = ", from_real(s.filter_cutoff));
+        if (!profile) return;
+        const Boundary boundary = c_.indentation.boundary;
+        require(boundary == Boundary::periodic || boundary == Boundary::periodic_y,
+                {"indentation%boundary", "surface%source"},
+                "a surface with source = 'profile' is constant along y: 'periodic_y' (in contact "
+                "with a roller or a flat) or 'periodic' (two flats) is expected");
+        require(elements_, {"solver%model", "surface%source"},
+                "a profile has no summits: its contact is solved by elements");
+        require(!s.window[0], {"surface%window", "surface%source"}, "is for maps");
+        require(shape() != "map", {"indenter%shape", "surface%source"},
+                "a map is not constant along y, as a surface with source = 'profile' is");
+    }
+
     // L over the shortest wavelength of a synthetic surface, in the direction across its lay.
     double shortest() const {
-        return c_.surface.L_lambda_s *
+        return self_affine_spectrum(c_).L_lambda_s *
                std::sqrt(std::max(c_.surface.aspect, 1 / c_.surface.aspect));
     }
     std::string_view shape() const { return kShapes.at(at(c_.indenter.shape)).name; }

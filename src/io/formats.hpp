@@ -32,6 +32,7 @@ bool gwy_lacks_units(const std::string& path, const std::string& channel);
 // are NaN. Profile j lies at y = j Yscale: the first row has the lowest y; x0 = y0 = 0. There are
 // no channels and no title; lengths are always in metres, so that `keys` do not apply.
 bool is_sdf(const std::string& start);
+// A file with one profile gives a map of one row.
 HeightMap read_sdf(const std::string& path, const std::string& channel,
                    const std::string& length_unit, const MapKeys& keys, std::string* title);
 
@@ -43,9 +44,9 @@ struct TextTable {
     std::vector<long> line;
     // Units that the comments name.
     struct UnitMention {
-        enum Kind { values, width, height, coordinates, other } kind = other;
+        enum Kind { values, width, height, coordinates, spacing, other } kind = other;
         std::string unit;
-        double size = 0;  // of width and height, in `unit`
+        double size = 0;  // of width, height and spacing, in `unit`
         long line = 0;
     };
     std::vector<UnitMention> units;
@@ -75,6 +76,13 @@ std::string gwyddion_advice(const std::string& path);
 // between commas or semicolons are missing values: NaN. Throws Error(bad_input) for words that are
 // no finite number, rows of different length or separator, files without rows, and UTF-16.
 TextTable read_table(const std::string& path, std::size_t columns, bool missing = false);
+
+// A profile in a text, as instruments export it: the longest block of lines with as many numbers
+// each, in the styles of read_table(), after lines of text without '#'. The last of these names the
+// units of the columns: "Lateral (um), Profile (nm)". SigmaSurf's texts name step and unit as
+// SPACING_UM and PROFILE_UM. Throws Error(bad_input) as read_table(), and if there are several long
+// blocks, as a damaged line leaves them.
+TextTable read_profile_table(const std::string& path, bool missing);
 
 // A number as Fortran reads it. Empty for other words, and for an exponent without a letter: in a
 // file "12-3" is rather two numbers that have lost their separator.

@@ -20,13 +20,15 @@ struct Header {
 
 HeightMap prepare(const std::string& path, const Header& h, const std::string& length_unit,
                   double& factor) {
-    check_grid(path, h.nx, h.ny);
+    const bool profile = h.ny == 1;  // Yscale may then be 0
+    if (!profile) check_grid(path, h.nx, h.ny);
+    check_memory(path, "the heights", double(h.nx));
     const auto positive = [&](const char* name, double value) {
         if (!(value > 0 && std::isfinite(value)))
             bad_input(path, ": ", name, " = ", value, ": must be positive");
     };
     positive("Xscale", h.dx);
-    positive("Yscale", h.dy);
+    if (!profile) positive("Yscale", h.dy);
     positive("Zscale", h.scale);
     if (h.compression != 0)
         bad_input(path, ": Compression = ", h.compression, ": only 0 (none) is known");
@@ -254,6 +256,8 @@ HeightMap read_text(const std::string& path, std::string bytes, const std::strin
 
 bool is_sdf(const std::string& start) {
     if (start.size() < kVersion || (start[0] != 'a' && start[0] != 'b')) return false;
+    // NPL and NIST publish theirs under these names.
+    if (start.starts_with("aNPL-V1.") || start.starts_with("aBC-1.0")) return true;
     const std::string kind = start.substr(1, 4);
     return (kind == "ISO-" || kind == "BCR-") &&
            std::isdigit(static_cast<unsigned char>(start[5])) && start[6] == '.' &&

@@ -352,6 +352,16 @@ std::string gwyddion_advice(const std::string& path) {
 
 namespace {
 
+// Removes the mark of UTF-8 from the first line; refuses UTF-16.
+void require_text(const std::string& path, std::string_view& view) {
+    if (view.substr(0, 3) == "\xef\xbb\xbf") view.remove_prefix(3);
+    if (view.substr(0, 2) == "\xff\xfe" || view.substr(0, 2) == "\xfe\xff")
+        bad_input(
+            path,
+            ": is text in UTF-16; this makes a file that rsc reads: iconv -f UTF-16 -t UTF-8 ",
+            for_shell(path), " > ", copy_for_shell(path, "_utf8.txt"));
+}
+
 // The lines of a table, after `heading` lines that are no numbers.
 class TableReader {
 public:
@@ -365,7 +375,7 @@ public:
         while (next_line(file_, text)) {
             ++line_;
             std::string_view view(text);
-            if (line_ == 1) start(view);
+            if (line_ == 1) require_text(path_, view);
             if (view.find('\0') != std::string_view::npos)
                 refuse(path_, line_, "neither text nor a NetCDF file (there is a zero byte)");
             if (const std::size_t mark = view.find('#'); mark != std::string_view::npos)
@@ -380,15 +390,6 @@ public:
     }
 
 private:
-    void start(std::string_view& view) const {
-        if (view.substr(0, 3) == "\xef\xbb\xbf") view.remove_prefix(3);  // UTF-8 byte order mark
-        if (view.substr(0, 2) == "\xff\xfe" || view.substr(0, 2) == "\xfe\xff")
-            bad_input(path_,
-                      ": is text in UTF-16; this makes a file that rsc reads: iconv -f UTF-16 "
-                      "-t UTF-8 ",
-                      for_shell(path_), " > ", copy_for_shell(path_, "_utf8.txt"));
-    }
-
     // Refuses a file whose first line of text is not a comment. What is to be done about it is told
     // if it makes a table of the rest.
     void refuse_heading(std::string_view first) {
@@ -443,6 +444,120 @@ private:
 
 TextTable read_table(const std::string& path, std::size_t columns, bool missing) {
     return TableReader(path, columns, missing, 0).read();
+}
+
+namespace {
+
+// Units in the line above the numbers, one for each column, as in "Lateral (um), Profile (nm)".
+void find_column_units(const std::string& heading, long line, std::size_t columns,
+                       std::vector<Mention>& found) {
+    std::vector<Mention> units;
+    find_units(heading, line, units);
+    if (units.size() != columns) return;
+    for (Mention& unit : units) unit.kind = Mention::coordinates;
+    units.back().kind = Mention::values;
+    found.insert(found.end(), units.begin(), units.end());
+}
+
+// The step and the unit in the heading of SigmaSurf's texts.
+void find_sigmasurf(std::string_view text, long line, std::vector<Mention>& found) {
+    const auto stated = label_and_value(text);
+    if (!stated) return;
+    if (stated->label == "PROFILE_UM") found.push_back({Mention::values, "um", 0, line});
+    const std::vector<CommentWord> value = words_of(stated->value);
+    if (stated->label == "SPACING_UM" && value.size() == 1 && value[0].number)
+        found.push_back({Mention::spacing, "um", *value[0].number, line});
+}
+
+// The blocks of lines with as many numbers each, between lines of text.
+class ProfileBlocks {
+public:
+    ProfileBlocks(const std::string& path, bool missing) : path_(path), missing_(missing) {}
+
+    void add(std::string_view text, long line) {
+        std::vector<double> values;
+        std::string_view cells = text.substr(0, text.find('#'));
+        cells = cells.substr(std::min(cells.find_first_not_of(" \t\r"), cells.size()));
+        if (cells.empty()) return;
+        Style style = block_.rows > 0 ? style_ : Style{};
+        std::size_t count = 0;
+        std::string why;
+        try {
+            const Row row = parse(text, path_, line, style, missing_, values);
+            count = row.count;
+        } catch (const Error& error) {
+            why = error.what();
+        }
+        if (count == 0 || (block_.rows > 0 && count != block_.columns)) {
+            if (why.empty() && count > 0)
+                why = joined(path_, ":", line, ": ", count, " values where ", block_.columns,
+                             " as before were expected");
+            close(why);
+            if (count == 0) {
+                heading_ = utf8(text);
+                heading_line_ = line;
+                find_sigmasurf(heading_, line, others_);
+                return;
+            }
+        }
+        if (block_.rows == 0) {
+            block_.columns = count;
+            if (heading_line_ > 0) find_column_units(heading_, heading_line_, count, block_.units);
+        }
+        style_ = style;
+        block_.values.insert(block_.values.end(), values.begin(), values.end());
+        block_.line.push_back(line);
+        ++block_.rows;
+    }
+    void comment(std::string_view text, long line) { find_units(utf8(text), line, others_); }
+
+    // The longest block. Another long one means that a line inside the profile is damaged.
+    TextTable longest() {
+        close("");
+        constexpr std::size_t few = 8;
+        if (second_ >= few)
+            bad_input(path_,
+                      ": numbers in two places; a profile was expected in one block of lines",
+                      broken_.empty() ? "" : ": ", broken_);
+        if (longest_.rows == 0) bad_input(path_, ": contains no numbers");
+        longest_.units.insert(longest_.units.end(), others_.begin(), others_.end());
+        return std::move(longest_);
+    }
+
+private:
+    void close(const std::string& why) {
+        if (block_.rows > 0 && !why.empty() && block_.rows > longest_.rows) broken_ = why;
+        if (block_.rows > longest_.rows) std::swap(block_, longest_);
+        second_ = std::max(second_, block_.rows);
+        block_ = {};
+    }
+
+    const std::string& path_;
+    bool missing_;
+    TextTable block_, longest_;
+    Style style_;
+    std::size_t second_ = 0;  // rows of the second longest
+    std::string heading_, broken_;
+    long heading_line_ = 0;
+    std::vector<Mention> others_;
+};
+
+}  // namespace
+
+TextTable read_profile_table(const std::string& path, bool missing) {
+    UnpackedFile file(path);
+    ProfileBlocks blocks(path, missing);
+    std::string text;
+    for (long line = 1; next_line(file, text); ++line) {
+        std::string_view view(text);
+        if (line == 1) require_text(path, view);
+        if (view.find('\0') != std::string_view::npos)
+            refuse(path, line, "neither text nor a NetCDF file (there is a zero byte)");
+        if (const std::size_t mark = view.find('#'); mark != std::string_view::npos)
+            blocks.comment(view.substr(mark + 1), line);
+        blocks.add(view, line);
+    }
+    return blocks.longest();
 }
 
 }  // namespace rsc

@@ -6,6 +6,7 @@
 #include "case/units.hpp"
 #include "io/formats.hpp"
 #include "io/input_netcdf.hpp"
+#include "io/map_parts.hpp"
 #include "surface/defects.hpp"
 
 namespace rsc {
@@ -43,6 +44,8 @@ void check_L(const std::string& path, double L) {
     if (!(L > 0 && std::isfinite(L))) bad_input(path, ": L must be positive and finite, not ", L);
 }
 
+}  // namespace
+
 // nx dx must equal the given L, if any.
 void check_given_L(const std::string& path, const std::string& coordinate, int nx, double dx,
                    std::optional<double> L) {
@@ -54,12 +57,7 @@ void check_given_L(const std::string& path, const std::string& coordinate, int n
                   extent, ", but L = ", *L, " was given");
 }
 
-// The uniform grid of one coordinate of x y z triples.
-struct TextAxis {
-    double first = 0, step = 0;
-    std::size_t count = 0;
-    std::size_t index(double c) const { return at(std::lround((c - first) / step)); }
-};
+namespace {
 
 // The unit of the last decimal digit that values have in common.
 double last_digit(const std::vector<double>& values) {
@@ -72,14 +70,16 @@ double last_digit(const std::vector<double>& values) {
     return digit;
 }
 
+}  // namespace
+
 TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t column,
                    const char* name) {
+    const char* const read_as = table.columns == 2 ? ": two columns are read as x z of a profile; "
+                                                   : ": three columns are read as x y z of a map; ";
     std::vector<double> c(table.rows);
     for (std::size_t i = 0; i < table.rows; ++i) {
-        c[i] = table.values[3 * i + column];
-        if (std::isnan(c[i]))
-            bad_input(path, ":", table.line[i], ": three columns are read as x y z of a map; ",
-                      name, " is missing");
+        c[i] = table.values[table.columns * i + column];
+        if (std::isnan(c[i])) bad_input(path, ":", table.line[i], read_as, name, " is missing");
     }
     std::ranges::sort(c);
     TextAxis axis;
@@ -96,8 +96,7 @@ TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t 
     for (std::size_t i = 1; i < c.size(); ++i)
         if (c[i] - c[i - 1] > same) axis.count += at(std::lround((c[i] - c[i - 1]) / least));
     if (axis.count < 2)
-        bad_input(path, ": three columns are read as x y z of a map; column ", name, " is ",
-                  axis.first, " throughout");
+        bad_input(path, read_as, "column ", name, " is ", axis.first, " throughout");
     axis.step = range / double(axis.count - 1);
     const auto uniform = [&](double v) { return axis.first + double(axis.index(v)) * axis.step; };
     double off = 0;
@@ -105,26 +104,22 @@ TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t 
     if (off <= kUniformText * axis.step) return axis;
     // Rounding moves a coordinate by half a unit of its last digit, and the ends as much.
     if (const double digit = last_digit(c); off <= 1.01 * digit)
-        bad_input(path, ": three columns are read as x y z of a map; ", name,
-                  " has too few digits: it is rounded to ", digit, ", and its step is about ",
-                  axis.step, "; a hundredth of the step is expected");
+        bad_input(path, read_as, name, " has too few digits: it is rounded to ", digit,
+                  ", and its step is about ", axis.step, "; a hundredth of the step is expected");
     for (std::size_t i = 0; i < table.rows; ++i) {
-        const double v = table.values[3 * i + column];
+        const double v = table.values[table.columns * i + column];
         if (!(std::abs(v - uniform(v)) <= kUniformText * axis.step))
-            bad_input(path, ":", table.line[i], ": three columns are read as x y z of a map; ",
-                      name, " = ", v, " is not on a uniform grid of ", axis.count, " values from ",
-                      c.front(), " to ", c.back());
+            bad_input(path, ":", table.line[i], read_as, name, " = ", v,
+                      " is not on a uniform grid of ", axis.count, " values from ", c.front(),
+                      " to ", c.back());
     }
     return axis;
 }
 
+namespace {
+
 // Three columns, unless the heading says that they are a matrix.
 bool is_triples(const TextTable& table) { return table.columns == 3 && !table.matrix(); }
-
-// The factors from a file's units of heights, and of x and y, to length_unit.
-struct UnitFactors {
-    double heights = 1, coordinates = 1;
-};
 
 HeightMap read_text_triples(const std::string& path, const TextTable& table,
                             std::optional<double> L, bool missing, const MapKeys& keys,
@@ -209,6 +204,8 @@ HeightMap read_text_matrix(const std::string& path, const TextTable& table, std:
     return map;
 }
 
+}  // namespace
+
 // Marks heights that mean "no data", and looks for others that may mean it.
 void mark_missing(HeightMap& map, const std::vector<double>& codes, MapOrigin* origin) {
     constexpr double kSingle = 1e-7;  // a code may have been rounded to single precision
@@ -222,10 +219,9 @@ void mark_missing(HeightMap& map, const std::vector<double>& codes, MapOrigin* o
 // A unit in a comment that is not understood, and is another than those that apply, is refused, as
 // are coordinates without a unit if the heights have one.
 UnitFactors text_factors(const std::string& path, const TextTable& table, const MapKeys& keys,
-                         const std::string& length_unit) {
+                         const std::string& length_unit, bool triples) {
     const Mention* const stated = table.mention(Mention::values);
     const Mention* const lateral = table.mention(Mention::coordinates);
-    const bool triples = is_triples(table);
     const bool known = !keys.height_unit.empty() || stated;
     const bool known_coordinates = !keys.coordinate_unit.empty() || lateral;
     const std::string heights = !keys.height_unit.empty() ? keys.height_unit
@@ -267,6 +263,8 @@ UnitFactors text_factors(const std::string& path, const TextTable& table, const 
     return factors;
 }
 
+namespace {
+
 // True if the values are uniform to the rounding of their digits.
 bool is_uniform(const std::vector<double>& c) {
     const double step = (c.back() - c.front()) / double(c.size() - 1);
@@ -296,7 +294,7 @@ HeightMap read_text_heights(const std::string& path, std::optional<double> L, bo
                             MapOrigin* origin) {
     const TextTable table = read_table(path, 0, missing);
     refuse_coordinates(path, table);
-    const UnitFactors factors = text_factors(path, table, keys, length_unit);
+    const UnitFactors factors = text_factors(path, table, keys, length_unit, is_triples(table));
     HeightMap map = is_triples(table)
                         ? read_text_triples(path, table, L, missing, keys, factors.coordinates)
                         : read_text_matrix(path, table, L, keys, length_unit);
@@ -305,12 +303,7 @@ HeightMap read_text_heights(const std::string& path, std::optional<double> L, bo
     return map;
 }
 
-// A uniform axis: value of point 0 (the smallest) and the step; `reversed` if the file counts
-// downwards.
-struct Axis {
-    double first = 0, step = 0;
-    bool reversed = false;
-};
+}  // namespace
 
 std::optional<Axis> read_axis(const NetcdfInput& file, const NetcdfInput::Variable& heights,
                               std::size_t dimension) {
@@ -347,16 +340,19 @@ std::optional<Axis> read_axis(const NetcdfInput& file, const NetcdfInput::Variab
     return axis;
 }
 
-NetcdfInput::Variable find_heights(const NetcdfInput& file, const std::string& channel) {
-    const auto is_map = [](const NetcdfInput::Variable& v) {
-        return v.lengths.size() == 2 && v.numeric();
+NetcdfInput::Variable find_heights(const NetcdfInput& file, const std::string& channel,
+                                   std::size_t rank) {
+    const char* const place = rank == 2 ? "height(y, x)" : "height(x)";
+    const std::string dimensions = rank == 2 ? "two dimensions" : "one dimension";
+    const auto is_map = [&](const NetcdfInput::Variable& v) {
+        return v.lengths.size() == rank && v.numeric() && (rank > 1 || v.name != v.axes[0]);
     };
     if (const auto named = file.find(channel.empty() ? "height" : channel)) {
         if (is_map(*named)) return *named;
         bad_input(file.path(), ": ",
                   channel.empty()
-                      ? "height(y, x), numeric,"
-                      : "channel '" + channel + "': a numeric variable of two dimensions",
+                      ? joined(place, ", numeric,")
+                      : "channel '" + channel + "': a numeric variable of " + dimensions,
                   " was expected, not ", named->shape());
     }
     if (!channel.empty()) bad_input(file.path(), ": there is no variable '", channel, "'");
@@ -368,12 +364,10 @@ NetcdfInput::Variable find_heights(const NetcdfInput& file, const std::string& c
             maps.push_back(v);
         }
     if (maps.empty())
-        bad_input(file.path(),
-                  ": there is no variable height(y, x) and no other of two dimensions");
+        bad_input(file.path(), ": there is no variable ", place, " and no other of ", dimensions);
     if (maps.size() > 1)
-        bad_input(
-            file.path(),
-            ": there is no variable height(y, x), and several others have two dimensions: ", names);
+        bad_input(file.path(), ": there is no variable ", place, ", and several others have ",
+                  dimensions, ": ", names);
     return maps[0];
 }
 
@@ -386,7 +380,7 @@ std::array<double, 3> unit_factors(const NetcdfInput& file, const NetcdfInput::V
     std::vector<NetcdfInput::Variable> all = {heights};
     if (coordinates)
         for (const std::size_t dimension : {of_x, 1 - of_x})
-            all.push_back(*file.find(heights.axes[dimension]));
+            if (dimension < heights.axes.size()) all.push_back(*file.find(heights.axes[dimension]));
     std::array<double, 3> factor{1, 1, 1};
     const NetcdfInput::Variable *with = nullptr, *without = nullptr;
     std::string unit;  // of `with`
@@ -407,6 +401,8 @@ std::array<double, 3> unit_factors(const NetcdfInput& file, const NetcdfInput::V
                   without == &all[0] ? "height_unit" : "coordinate_unit", " must be given");
     return factor;
 }
+
+namespace {
 
 // Sets points under the variable `mask` to NaN, if there is one of the shape of the heights.
 void apply_mask(const NetcdfInput& file, const NetcdfInput::Variable& heights, HeightMap& map) {
@@ -543,6 +539,8 @@ void refuse_mesh(const std::string& path, const std::string& start) {
                   "), not a height map: heights on a grid are expected");
 }
 
+}  // namespace
+
 // A file of no known format is refused; the message says how to convert it.
 void refuse_unknown(const std::string& path, const std::string& start) {
     refuse_packed(path, start);
@@ -556,6 +554,8 @@ void refuse_unknown(const std::string& path, const std::string& start) {
             std::string(format.name) + (&format == std::end(kInstrumentFormats) - 1 ? " " : ", ");
     bad_input(path, names, "nor text. ", gwyddion_advice(path));
 }
+
+namespace {
 
 Asperities read_netcdf_asperities(const std::string& path, const std::string& length_unit) {
     const NetcdfInput file(path);
@@ -680,6 +680,30 @@ std::optional<double> likely_code(const HeightMap& map, long& points) {
     return {};
 }
 
+void check_heights(const std::string& path, const HeightMap& map, bool fill, bool upwards,
+                   const char* masked) {
+    for (const double step : {map.dx, map.dy})
+        if (!usable_positive(step))
+            bad_input(path, ": the spacing ", kPositiveBounds, ", not ", step);
+    for (const double origin : {map.x0, map.y0})
+        if (!usable(origin))
+            bad_input(path, ": the first coordinate ", kNumberBounds, ", not ", origin);
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx)) {
+            const double z = map(i, j);
+            if (usable(z) || (fill && std::isnan(z))) continue;
+            const std::string place =
+                map.ny > 1 ? joined(" in column ", i, " of row ", j, ", counted from 0",
+                                    upwards ? " with y upwards" : "")
+                           : joined(" at point ", i, ", counted from 0");
+            if (std::isnan(z))
+                bad_input(path, ": ", count_missing(map), " of ", long(map.nx) * map.ny,
+                          " points are missing", masked, ", the first", place,
+                          "; surface%missing = 'fill' fills them");
+            bad_input(path, ": a height ", kNumberBounds, ", not ", z, " as", place);
+        }
+}
+
 HeightMap read_heights(const std::string& path, std::optional<double> L,
                        const std::string& length_unit, const std::string& channel, Missing missing,
                        const MapKeys& keys, MapOrigin* origin) {
@@ -700,24 +724,8 @@ HeightMap read_heights(const std::string& path, std::optional<double> L,
         mark_missing(map, keys.missing_value, origin);
         check_given_L(path, "x", map.nx, map.dx, L);
     }
-    for (const double step : {map.dx, map.dy})
-        if (!usable_positive(step))
-            bad_input(path, ": the spacing ", kPositiveBounds, ", not ", step);
-    for (const double origin : {map.x0, map.y0})
-        if (!usable(origin))
-            bad_input(path, ": the first coordinate ", kNumberBounds, ", not ", origin);
-    for (const int j : indices(map.ny))
-        for (const int i : indices(map.nx)) {
-            const double z = map(i, j);
-            if (usable(z) || (fill && std::isnan(z))) continue;
-            const std::string place = joined(" in column ", i, " of row ", j, ", counted from 0",
-                                             instrument ? " with y upwards" : "");
-            if (std::isnan(z))
-                bad_input(path, ": ", count_missing(map), " of ", long(map.nx) * map.ny,
-                          " points are missing", channels ? " or masked" : "", ", the first", place,
-                          "; surface%missing = 'fill' fills them");
-            bad_input(path, ": a height ", kNumberBounds, ", not ", z, " as", place);
-        }
+    const char* const note = channels ? " or masked" : "";
+    check_heights(path, map, fill, instrument != nullptr, note);
     return map;
 }
 

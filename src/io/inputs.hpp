@@ -87,6 +87,17 @@ HeightMap read_heights(const std::string& path, std::optional<double> L,
                        Missing missing = Missing::refuse, const MapKeys& keys = {},
                        MapOrigin* origin = nullptr);
 
+// A profile, heights along x, as a map of one row of the side dy = thickness [length_unit]: a
+// surface that is constant along y.
+//
+// NetCDF: the variable `height`, dimension (x), or the only one of one dimension that is no
+// coordinate; .sdf with NumProfiles = 1; .smd of ISO 5436-2; text: two columns x z or one of
+// heights (read_profile_table()), with the units of their headings or of `keys`. Without x, `keys`
+// give the pixel, or L does. At least 16 points; otherwise as read_heights().
+HeightMap read_profile(const std::string& path, std::optional<double> L,
+                       const std::string& length_unit, const std::string& channel, Missing missing,
+                       const MapKeys& keys, double thickness, MapOrigin* origin = nullptr);
+
 // Asperities from `path`.
 // NetCDF: asperity_x, asperity_y, asperity_z, asperity_radius over one dimension; asperity_kappa1,
 // _kappa2 and _angle if all three exist, asperity_biharmonic if it exists; each converted from its

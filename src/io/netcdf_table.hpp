@@ -128,6 +128,8 @@ private:
     void measured_form(const Measured& m);
     void measured_heights(const Measured& m);
     void measured_spectrum(const Measured& m);
+    void measured_quantiles(const Measured& m);
+    void measured_profile(const MeasuredProfile& p);
     void measured_fit(const MeasuredSpectrum& spectrum, const SelfAffineFit& found);
     void two_flats(const Moments& moments);
     // netcdf_observed.cpp

@@ -43,7 +43,66 @@ void ResultTable::measured() {
     measured_form(m);
     measured_heights(m);
     measured_spectrum(m);
+    measured_quantiles(m);
     if (m.fit) measured_fit(m.spectrum, *m.fit);
+    if (m.profile) measured_profile(*m.profile);
+}
+
+// The profile before and after its treatment, its parameters and its spectrum.
+void ResultTable::measured_profile(const MeasuredProfile& p) {
+    const Measured& m = *r_.measured;
+    const auto places = [&](double first, std::size_t n) {
+        return each_of(int(n), [&](int i) { return first + i * m.dx; });
+    };
+    file_.dimension("trace_x", p.trace.size());
+    add("trace_x", {"trace_x"}, unit(1), "place of the points of the profile as read",
+        places(p.trace_x0, p.trace.size()));
+    add_absent("trace", {"trace_x"}, unit(1), "heights of the profile as read", p.trace,
+               "missing points are missing");
+    add("trace_form", {"trace_x"}, unit(1), "form subtracted from them", p.form);
+    file_.dimension("profile_x", p.heights.size());
+    add("profile_x", {"profile_x"}, unit(1), "place of the points of the treated profile",
+        places(m.x0, p.heights.size()));
+    add("profile", {"profile_x"}, unit(1), "heights of the treated profile", p.heights);
+    const ProfileParameters& v = p.parameters;
+    const char* const standard =
+        p.cutoff_long > 0 ? "ISO 21920-2, roughness profile" : "ISO 21920-2, primary profile";
+    const std::tuple<const char*, const char*, int, double> values[] = {
+        {"ra", "arithmetic mean deviation Ra", 1, v.ra},
+        {"rq", "root mean square deviation Rq", 1, v.rq},
+        {"rz", "maximum height Rz, mean over sampling lengths", 1, v.rz},
+        {"rsk", "skewness Rsk", 0, v.rsk},
+        {"rku", "kurtosis Rku", 0, v.rku},
+        {"rdq", "root mean square slope Rdq", 0, v.rdq},
+        {"evaluation_length", "evaluation length of the profile", 1, v.length},
+        {"sampling_length", "sampling length of rz", 1, v.sampling_length}};
+    for (const auto& [name, meaning, power, value] : values)
+        add_absent(name, {}, power == 0 ? "1" : unit(power), meaning, {value}, standard);
+    add("cutoff_long", unit(1), "long-wave cutoff of the Gaussian filter; 0: none", p.cutoff_long,
+        comment("ISO 16610-21; half of it is lost at each end"));
+    const ProfileSpectrum& s = p.spectrum;
+    file_.dimension("profile_wavenumber", s.wavenumber.size());
+    add("profile_wavenumber", {"profile_wavenumber"}, unit(-1),
+        "wavenumber q = 2 pi/lambda along the profile, middle of a band", s.wavenumber);
+    add("profile_psd", {"profile_wavenumber"}, unit(3),
+        "power spectral density C1 of the profile, mean over the band", s.psd,
+        comment("after a Hann window, divided by the transmission of the filters; the integral of "
+                "C1 dq over all q, negative ones included, is the mean square height"));
+    add("profile_modes", {"profile_wavenumber"}, "1", "Fourier modes in the band", s.modes);
+    if (!p.fit) return;
+    std::vector<double> fitted;
+    for (const double q : s.wavenumber)
+        fitted.push_back(profile_of_self_affine(p.fit->surface, q / p.stretch) / p.stretch);
+    add("profile_psd_fit", {"profile_wavenumber"}, unit(3),
+        "density C1 of the profiles of the self-affine surface fitted to profile_psd", fitted,
+        {{"sigma", p.fit->sigma.value},
+         {"sigma_error", p.fit->sigma.error},
+         {"rms_slope", p.fit->slope.value},
+         {"rms_slope_error", p.fit->slope.error},
+         {"noise", p.fit->noise / p.stretch},
+         {"comment",
+          "the parameters of the surface are attributes of psd_fit; rms_slope is that of a profile "
+          "across the lay; noise: density of white noise under it; errors are 90 % intervals"}});
 }
 
 void ResultTable::measured_form(const Measured& m) {
@@ -124,8 +183,13 @@ void ResultTable::measured_spectrum(const Measured& m) {
         "wavenumber k = 2 pi/lambda, middle of a ring of Fourier modes", m.spectrum.wavenumber);
     add("psd", {"wavenumber"}, unit(4), "power spectral density Phi, mean over the ring",
         m.spectrum.psd,
-        of_twins("after a Hann window; the integral of 2 pi k Phi dk is the mean square height",
-                 m.spectrum.exponent));
+        m.profile ? comment("of the surface that has such profiles, at the stretched wavenumber "
+                            "k' of the assumed lay; the integral of 2 pi k' Phi dk' is its mean "
+                            "square height")
+                  : of_twins("after a Hann window; the integral of 2 pi k Phi dk is the mean "
+                             "square height",
+                             m.spectrum.exponent));
+    if (m.profile) return;
     file_.dimension("plane_wavenumber", m.spectrum.plane_wavenumber.size());
     file_.dimension("angle", MeasuredSpectrum::kAngles);
     constexpr int angles = MeasuredSpectrum::kAngles;
@@ -139,6 +203,9 @@ void ResultTable::measured_spectrum(const Measured& m) {
         of_twins("the other half plane is the mirror image; surface%twins = 'directional' "
                  "generates surfaces with it",
                  m.spectrum.plane_exponent));
+}
+
+void ResultTable::measured_quantiles(const Measured& m) {
     const HeightQuantiles& t = m.quantiles;
     file_.dimension("normal_score", t.score.size());
     add("normal_score", {"normal_score"}, "1",

@@ -78,8 +78,9 @@ double seam(const HeightMap& map) {
                          up = map(i, (j + 1) % map.ny) - map(i, j);
             const bool at_end = i + 1 == map.nx, at_top = j + 1 == map.ny;
             (at_end ? across : within) += right * right;
-            (at_top ? across : within) += up * up;
             ++(at_end ? n_across : n_within);
+            if (map.ny == 1) continue;  // constant along y
+            (at_top ? across : within) += up * up;
             ++(at_top ? n_across : n_within);
         }
     return std::sqrt(across / double(n_across) / (within / double(n_within)));
@@ -294,7 +295,7 @@ double take_surface(Job& job) {
         return std::sqrt(job.theory->m4);
     }
     SurfaceModel model;
-    if (settings.surface.source == Source::heights) {
+    if (reads_heights(settings)) {
         Surface surface = make_surface(settings, settings.run.first_realization, 1);
         model = elements ? make_bare_model(surface) : make_surface_model(surface, settings, 1);
         if (surface.map.periodic) job.seam = seam(surface.map);
@@ -360,7 +361,7 @@ PreparedFacts facts_of(const Job& job) {
     const bool elements = by_elements(job.settings);
     double side = 0, points = 0;
     if (job.given_heights) {
-        side = std::max(job.given_heights->dx, job.given_heights->dy);
+        side = job.given_heights->step();
         points = double(job.given_heights->nx) * job.given_heights->ny;
     } else if (elements && job.spectrum) {
         const double n = element_points(job.settings, *job.spectrum);
@@ -534,8 +535,8 @@ Realization realize(const Job& job, std::int64_t number, int threads,
             fields.push_back(field_level(job, r, *contact, k, level));
         if (grouped) record(level);
         if (map)
-            state_curve_errors(std::span(r.curves).last(each), job.observe.curves,
-                               std::max(map->dx, map->dy), settings, level,
+            state_curve_errors(std::span(r.curves).last(each), job.observe.curves, map->step(),
+                               settings, level,
                                grid_bodies(job.spectrum ? job.indenter.shape->keys().map != nullptr
                                                         : job.solver.surface.measured,
                                            job.indenter));

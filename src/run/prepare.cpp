@@ -97,13 +97,16 @@ HeightMap read_raw_map(const Case& settings, const std::string& path, std::optio
     const auto& keys = settings.surface;
     const bool part = windowed && keys.window[0];
     // Of two maps one may have no units, to which alone these keys apply.
-    const std::string other = windowed                         ? settings.indenter.file
-                              : keys.source == Source::heights ? map_file(keys.file, 1)
-                                                               : "";
+    const std::string other = windowed                  ? settings.indenter.file
+                              : reads_heights(settings) ? map_file(keys.file, 1)
+                                                        : "";
     MapKeys given{keys.height_unit, keys.pixel, keys.missing_value, keys.coordinate_unit};
     if (!other.empty() && lacks_units(other, windowed ? settings.indenter.channel : keys.channel) &&
         !lacks_units(path, channel))
         given = {"", {}, keys.missing_value};
+    if (windowed && keys.source == Source::profile)
+        return read_profile(path, L, settings.run.length_unit, channel, keys.missing, given,
+                            keys.thickness, origin);
     HeightMap map = read_heights(path, L, settings.run.length_unit, channel,
                                  part ? Missing::fill : keys.missing, given, origin);
     return part ? part_of(map, keys.window, path) : std::move(map);
@@ -117,8 +120,10 @@ Surface read_map(const Case& settings, const std::string& path, std::optional<do
     surface.map = read_raw_map(settings, path, L, channel, windowed, &origin);
     surface.name = path;
     try {
-        auto measured = std::make_shared<Measured>(
-            measure(surface.map, {keys.missing, keys.detrend, keys.filter_cutoff, keys.outliers}));
+        auto measured = std::make_shared<Measured>(measure(
+            surface.map,
+            {keys.missing, keys.detrend, keys.filter_cutoff, keys.outliers, keys.cutoff_long,
+             keys.profile_surface == ProfileSurface::inversion, keys.aspect, keys.direction}));
         measured->channel = origin.channel;
         measured->code = origin.code;
         measured->coded = origin.coded;
@@ -164,8 +169,7 @@ Spectrum spectrum_of(const Case& settings) {
 }
 
 bool differs_by_realization(const Case& settings) {
-    return has_spectrum(settings) ||
-           (settings.surface.source == Source::heights && is_pattern(settings.surface.file));
+    return has_spectrum(settings) || (reads_heights(settings) && is_pattern(settings.surface.file));
 }
 
 HeightMap read_points(const Case& settings, std::int64_t number) {
@@ -196,7 +200,7 @@ Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_
 Surface make_surface(const Case& settings, std::int64_t number, int threads) {
     if (has_spectrum(settings))
         return make_surface(settings, spectrum_of(settings), number, threads);
-    if (settings.surface.source == Source::heights) {
+    if (reads_heights(settings)) {
         Surface surface = read_map(settings, map_file(settings.surface.file, number),
                                    settings.surface.L, settings.surface.channel, true);
         surface.map.periodic = settings.indentation.boundary == Boundary::periodic;
@@ -342,7 +346,7 @@ std::shared_ptr<const MapMarks> marks_of(const HeightMap& map, const Breaks& bre
     }
     for (const Breaks::Place& spike : breaks.spikes)
         marks->spikes.push_back({map.x(spike.i), map.y(spike.j)});
-    marks->reach = std::max(map.dx, map.dy);
+    marks->reach = map.step();
     return marks;
 }
 
@@ -387,7 +391,7 @@ SurfaceModel make_bare_model(const Surface& surface) {
     model.domain.sigma = surface.sigma;
     model.domain.points_per_wave =
         model.measured ? model.measured->points_per_wave() : surface.points_per_wave;
-    model.domain.grid_step = std::max(map.dx, map.dy);
+    model.domain.grid_step = map.step();
     if (surface.theory) {
         model.domain.mean_spacing = surface.theory->mean_spacing();
         model.curvature = curvature_at_unit_height(*surface.theory);

@@ -149,6 +149,12 @@ Case::Surface for_second_body(const Case::Surface& keys, const Case::IndenterKey
     return kept;
 }
 
+// Surfaces as long as the profile would have too many waves.
+double length_of_twins(const Measured& m) {
+    constexpr double most = 1024;  // of the shortest waves
+    return std::min(m.Lx(), most * 2 * std::numbers::pi / m.spectrum.wavenumber.back());
+}
+
 }  // namespace
 
 std::string twins_text(const Job& job, const std::string& result) {
@@ -159,7 +165,7 @@ std::string twins_text(const Job& job, const std::string& result) {
         keys.stop *= factor;
         for (double& level : keys.levels) level *= factor;
     };
-    const double L = std::max(m.Lx(), m.Ly());
+    const double L = m.profile ? length_of_twins(m) : std::max(m.Lx(), m.Ly());
     twins.run.title = "Surfaces with the spectrum of " +
                       std::filesystem::path(job.settings.surface.file).filename().string();
     twins.run.realizations = kRealizations;
@@ -173,6 +179,13 @@ std::string twins_text(const Job& job, const std::string& result) {
     twins.surface.n = 2 * int(std::ceil(m.spectrum.wavenumber.back() * L / (2 * std::numbers::pi) *
                                         (1 - 1e-12))) +
                       2;  // one more point for heights of any distribution
+    if (m.profile) {
+        twins.surface.aspect = keys.aspect;
+        twins.surface.direction = keys.direction;
+        // The forces of a length of the profile become those of the length of the twins.
+        if (job.indenter.period.line() && twins.indentation.control == Control::force)
+            scale_levels(L / m.Ly());
+    }
     twins.surface.twins = m.isotropy < kIsotropic ? Twins::directional : Twins::radial;
     twins.surface.twin_heights = m.gaussian() ? TwinHeights::gaussian : TwinHeights::measured;
     twins.surface.sigma = m.parameters.sq;
@@ -216,6 +229,7 @@ std::string twins_text(const Job& job, const std::string& result) {
 // rms height of the map.
 constexpr double kTold = 0.05;  // a difference of slopes, or an exponent, that is stated
 static std::string other_slopes(const Measured& m) {
+    if (m.profile) return "";
     const MeasuredSpectrum& s = m.spectrum;
     const double L = std::max(m.Lx(), m.Ly()), sigma = m.parameters.sq;
     const bool directional = m.isotropy < kIsotropic;

@@ -154,6 +154,12 @@ void print_case(std::ostream& out, const Job& job) {
                 "(elements%%points_per_wave)\n",
                 job.settings.surface.n, n, n);
     }
+    if (const auto made = finished_surface(job.settings))
+        out << format(
+            "warning: surface%%finish = '%s' is an assumption: rms height %.4g %s, hurst %.3g, "
+            "waves from %.4g to %.4g %s (%s)\n",
+            kFinishNames[std::size_t(job.settings.surface.finish)], made->sigma, l, made->hurst,
+            made->longest, made->shortest, l, made->sources.c_str());
     if (job.theory) {
         const Moments& m = *job.theory;
         out << format(

@@ -427,6 +427,7 @@ struct Profile {
         return along_x ? map(wrapped(i + k, map.nx), j) : map(i, wrapped(j + k, map.ny));
     }
     double bend(int k) const {
+        if (!along_x && map.ny == 1) return 0;
         return has(k - 1) && has(k + 1) ? at(k - 1) - 2 * at(k) + at(k + 1) : 0;
     }
 };
@@ -434,7 +435,8 @@ struct Profile {
 double median_bend(const HeightMap& map, bool along_x) {
     std::vector<double> bends;
     const int skip = std::max(1, map.ny / 256);
-    for (int j = 1; j < map.ny - 1; j += skip)
+    const int edge = map.ny > 1;
+    for (int j = edge; j < map.ny - edge; j += skip)
         for (int i = 1; i < map.nx - 1; ++i)
             if (const double bend = std::abs(Profile{map, i, j, along_x}.bend(0)); bend > 0)
                 bends.push_back(bend);
@@ -499,7 +501,7 @@ struct BreakSearch {
             tell(Breaks::pit, i, j, 0.5 * (across ? bend_x : bend_y));
             return;
         }
-        const bool spike = along_x == Breaks::spike && along_y == Breaks::spike;
+        const bool spike = along_x == Breaks::spike && (along_y == Breaks::spike || map.ny == 1);
         const auto left = [&](Breaks::Kind of) {
             return (along_x && !bent_by(x, of, least_x)) || (along_y && !bent_by(y, of, least_y));
         };
@@ -508,7 +510,8 @@ struct BreakSearch {
         if (spike) breaks.spikes.push_back({i, j});
         if (!spike && !left(Breaks::spike)) return;
         tell(spike ? Breaks::spike : Breaks::step, i, j,
-             spike ? -0.5 * std::max(bend_x, bend_y) : std::max(jump(x), jump(y)));
+             spike ? -0.5 * (map.ny > 1 ? std::max(bend_x, bend_y) : bend_x)
+                   : std::max(jump(x), jump(y)));
         if (!spike && along_x) ++in_column[static_cast<std::size_t>(i)];
         if (!spike && along_y) ++in_row[static_cast<std::size_t>(j)];
     }
@@ -549,7 +552,7 @@ std::vector<std::uint8_t> distances_to(const std::vector<Breaks::Place>& marked,
 Breaks find_breaks(const HeightMap& map, double height_step) {
     Breaks breaks;
     const int nx = map.nx, ny = map.ny;
-    if (nx < 3 || ny < 3) return breaks;
+    if (nx < 3 || (ny < 3 && ny != 1)) return breaks;
     constexpr double rounding = 3;  // rounding changes a second difference by up to two steps
     BreakSearch search{map,
                        std::max(kBreak * median_bend(map, true), rounding * height_step),
@@ -564,8 +567,8 @@ Breaks find_breaks(const HeightMap& map, double height_step) {
         const auto most = std::max_element(counts.begin(), counts.end());
         return 2 * *most > length ? static_cast<int>(most - counts.begin()) : -1;
     };
-    breaks.seam_column = seam(search.in_column, ny);
-    breaks.seam_row = seam(search.in_row, nx);
+    if (ny > 1) breaks.seam_column = seam(search.in_column, ny);
+    if (ny > 1) breaks.seam_row = seam(search.in_row, nx);
     if (!search.marked.empty()) breaks.clear = distances_to(search.marked, map);
     return breaks;
 }

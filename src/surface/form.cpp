@@ -88,13 +88,14 @@ std::array<double, kUnknowns> fit(const HeightMap& map, const Frame& frame, cons
     return all.solve(form);
 }
 
-// Subtracts `level` and a polynomial of first degree (3 unknowns) or second degree (6). The second
-// round removes rounding errors of large forms.
+// Subtracts `level` and a polynomial of first degree (3 unknowns) or second degree (6), of a profile
+// 2 or 3. The second round removes rounding errors of large forms.
 template <int kUnknowns>
 std::array<double, 6> subtract_polynomial(HeightMap& map, const Frame& frame, const char* form,
                                           double level) {
-    const auto basis = [](double u, double v) {
-        const std::array<double, 6> all{1, u, v, u * u, u * v, v * v};
+    const auto basis = [row = map.ny == 1](double u, double v) {
+        std::array<double, 6> all{1, u, v, u * u, u * v, v * v};
+        if (row) all = {1, u, u * u};
         std::array<double, kUnknowns> some{};
         std::copy_n(all.begin(), kUnknowns, some.begin());
         return some;
@@ -143,11 +144,24 @@ double left_by(const Sphere& s, const HeightMap& map, const Frame& f, double lev
     });
 }
 
-// Fits a sphere to the heights above `level`.
+// Fits values by four functions; on a profile, where v = 0, by all but the third.
+template <class Basis, class Value>
+std::array<double, 4> fit_sphere_change(const HeightMap& map, const Frame& frame, Basis basis,
+                                        Value value) {
+    if (map.ny > 1) return fit<4>(map, frame, "sphere", basis, value);
+    const auto some = [&](double u, double v) {
+        const std::array<double, 4> all = basis(u, v);
+        return std::array<double, 3>{all[0], all[1], all[3]};
+    };
+    const auto c = fit<3>(map, frame, "arc", some, value);
+    return {c[0], c[1], 0, c[2]};
+}
+
+// Fits a sphere, or to a profile a circle, to the heights above `level`.
 Sphere fit_sphere(const HeightMap& map, const Frame& frame, double level) {
     const double a = frame.scale;
-    const auto start = fit<4>(
-        map, frame, "sphere",
+    const auto start = fit_sphere_change(
+        map, frame,
         [](double u, double v) {
             return std::array<double, 4>{1, u, v, u * u + v * v};
         },
@@ -164,8 +178,8 @@ Sphere fit_sphere(const HeightMap& map, const Frame& frame, double level) {
     for (int step = 0; step < kMostSteps; ++step) {
         if (std::isnan(left)) break;
         // Unknowns are scaled to heights: level, a p, a q, a^2 bend.
-        const auto change = fit<4>(
-            map, frame, "sphere",
+        const auto change = fit_sphere_change(
+            map, frame,
             [&](double u, double v) {
                 const double w = s.above(u * a, v * a), slope = 1 / (1 + s.bend * w);
                 return std::array<double, 4>{1, u * slope, v * slope,
@@ -208,7 +222,15 @@ Form detrend(HeightMap& map, Detrend how) {
             for (int i = 0; i < map.nx; ++i) map.row(j)[i] -= level;
     const Frame frame(map);
     const double a = frame.scale;
-    if (how == Detrend::plane) {
+    const bool row = map.ny == 1;
+    if (row && (how == Detrend::plane || how == Detrend::quadratic)) {
+        const auto c = how == Detrend::plane
+                           ? subtract_polynomial<2>(map, frame, "line", level)
+                           : subtract_polynomial<3>(map, frame, "parabola", level);
+        form.level += c[0];
+        form.slope_x = c[1] / a;
+        form.zxx = 2 * c[2] / (a * a);
+    } else if (how == Detrend::plane) {
         const auto c = subtract_polynomial<3>(map, frame, "plane", level);
         form.level += c[0];
         form.slope_x = c[1] / a;

@@ -21,6 +21,7 @@ struct Form {
     double rms = 0;  // rms height of the residual, about its mean [length]
 };
 
+// Of a profile, a map of one row: a line, a parabola or an arc.
 // Subtracts the least-squares form in place; missing points (NaN) are ignored and stay NaN. The
 // plane and the quadratic are polynomials of first and second degree. Centre and radius of the
 // sphere minimise the squared vertical distances, by the Gauss-Newton method starting from the

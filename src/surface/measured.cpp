@@ -88,7 +88,7 @@ bool Measured::gaussian() const {
     return std::abs(parameters.ssk) <= 0.3 && std::abs(parameters.sku - 3) <= 0.6;
 }
 
-double Measured::points_per_wave() const { return shortest_wave / std::max(dx, dy); }
+double Measured::points_per_wave() const { return shortest_wave / step(); }
 
 namespace {
 
@@ -104,14 +104,13 @@ void measure_and_fit(const HeightMap& map, const Isotropy& slopes, Measured& m) 
     const double aspect = m.isotropy < kIsotropic ? 1 / std::max(m.isotropy, 0.05) : 1;
     const MeasuredSpectrum stretched =
         aspect > 1 ? spectrum(aspect, slopes.direction) : MeasuredSpectrum();
-    m.shortest_wave = 2 * std::max(m.dx, m.dy);
+    m.shortest_wave = 2 * m.step();
     if (can_fit(m.spectrum)) {
         m.fit = fit_self_affine(m.spectrum);
         m.shortest_wave = 2 * std::numbers::pi / m.fit->ks.value;
     }
-    keep_depths(
-        m.filled, m.nx, m.ny,
-        std::max(1, static_cast<int>(std::lround(m.shortest_wave / (8 * std::max(m.dx, m.dy))))));
+    keep_depths(m.filled, m.nx, m.ny,
+                std::max(1, static_cast<int>(std::lround(m.shortest_wave / (8 * m.step())))));
     if (can_fit(stretched)) {
         m.fit = fit_self_affine(stretched);
         m.fit->aspect = aspect;
@@ -130,6 +129,46 @@ void measure_and_fit(const HeightMap& map, const Isotropy& slopes, Measured& m) 
     }
 }
 
+// The spectrum of a treated profile and of the surface that has such profiles.
+void measure_profile(const HeightMap& map, const MeasureOptions& options, MeasuredProfile& p,
+                     Measured& m) {
+    p.heights.assign(map.row(0), map.row(0) + map.nx);
+    p.parameters = profile_parameters(map, options.cutoff_long);
+    p.cutoff_long = options.cutoff_long;
+    p.spectrum = profile_spectrum(map, options.cutoff_long, options.filter_cutoff, m.form.how);
+    Spectrum lay;
+    lay.aspect = options.aspect;
+    lay.direction = options.direction;
+    p.stretch = std::sqrt(stretch(lay).yy);
+    m.shortest_wave = 2 * m.dx;
+    if (!can_fit(p.spectrum)) return;
+    ProfileSpectrum isotropic = p.spectrum;
+    for (double* const k : {&isotropic.step, &isotropic.lowest, &isotropic.highest})
+        *k /= p.stretch;
+    for (double& k : isotropic.wavenumber) k /= p.stretch;
+    for (double& c : isotropic.psd) c *= p.stretch;
+    p.fit = fit_profile(isotropic);
+    m.fit = p.fit->surface;
+    m.fit->aspect = options.aspect;
+    m.fit->direction = options.direction * std::numbers::pi / 180;
+    m.shortest_wave = 2 * std::numbers::pi / (m.fit->ks.value * p.stretch);
+    MeasuredSpectrum& s = m.spectrum;
+    if (options.by_inversion) {
+        s.wavenumber = isotropic.wavenumber;
+        s.psd = isotropic_spectrum(s.wavenumber, isotropic.psd);
+        return;
+    }
+    // To the ends of the band, and with a plateau to the longest wave of the profile.
+    const double first =
+        m.fit->plateau ? std::min(isotropic.step, m.fit->kl.value) : m.fit->kl.value;
+    constexpr int points = 200;
+    for (const int i : indices(points)) {
+        const double k = first * std::pow(m.fit->ks.value / first, i / (points - 1.0));
+        s.wavenumber.push_back(i + 1 == points ? m.fit->ks.value : k);
+        s.psd.push_back((*m.fit)(s.wavenumber.back()));
+    }
+}
+
 }  // namespace
 
 Measured measure(HeightMap& map, const MeasureOptions& options) {
@@ -138,7 +177,7 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     // Beyond this ratio, rounding removes the smaller of the terms in 1/dx^2 and 1/dy^2 from their
     // sum.
     constexpr double most_unlike = 1e4;
-    if (std::max(map.dx, map.dy) > most_unlike * std::min(map.dx, map.dy))
+    if (map.ny > 1 && std::max(map.dx, map.dy) > most_unlike * std::min(map.dx, map.dy))
         bad_input(format("steps of %.6g x %.6g: one is more than %.0f times the other", map.dx,
                          map.dy, most_unlike));
     m.missing = count_missing(map);
@@ -152,7 +191,15 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     m.missing_share = static_cast<double>(m.missing) / points;
     if (!(options.filter_cutoff > 0)) m.height_step = height_step(map);
     m.as_read = roughness(map);
+    std::shared_ptr<MeasuredProfile> profile;
+    if (map.ny == 1) {
+        profile = std::make_shared<MeasuredProfile>();
+        profile->trace.assign(map.row(0), map.row(0) + map.nx);
+        profile->trace_x0 = map.x0;
+    }
     m.form = detrend(map, options.detrend);
+    for (int i = 0; profile && i < map.nx; ++i)
+        profile->form.push_back(profile->trace[std::size_t(i)] - map(i, 0));
     m.filled = fill_missing(map);
     for (int j = 0; j < map.ny; ++j)
         if (!std::all_of(map.row(j), map.row(j) + map.nx,
@@ -170,6 +217,12 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
             bad_input(format("surface%%filter_cutoff = %g removes all heights of a map of %g x %g",
                              options.filter_cutoff, map.Lx(), map.Ly()));
     }
+    if (profile && options.cutoff_long > 0) {
+        remove_long_waves(map, options.cutoff_long);
+        cut_ends(map, static_cast<int>(std::ceil(0.5 * options.cutoff_long / map.dx)), m.filled);
+        static_cast<PointGrid&>(m) = map;
+        m.filtered = roughness(map);
+    }
     m.breaks = find_breaks(map, m.height_step);
     m.parameters = height_parameters(map);
     m.moments = grid_moments(map);
@@ -177,16 +230,26 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     m.isotropy = slopes.ratio;
     m.quantiles = height_quantiles(map);
     count_heights(map, m);
-    measure_and_fit(map, slopes, m);
+    if (profile) {
+        measure_profile(map, options, *profile, m);
+        m.profile = std::move(profile);
+    } else {
+        measure_and_fit(map, slopes, m);
+    }
     return m;
 }
 
 namespace {
 
 void tell_points(const Measured& m, const char* l, std::vector<std::string>& lines) {
-    lines.push_back(format("map%s: %d x %d points of %.6g x %.6g %s, %.6g x %.6g %s",
-                           m.channel.empty() ? "" : (" '" + m.channel + "'").c_str(), m.nx, m.ny,
-                           m.dx, m.dy, l, m.Lx(), m.Ly(), l));
+    if (m.profile)
+        lines.push_back(format("profile%s: %zu points, %.6g %s apart",
+                               m.channel.empty() ? "" : (" '" + m.channel + "'").c_str(),
+                               m.profile->trace.size(), m.dx, l));
+    else
+        lines.push_back(format("map%s: %d x %d points of %.6g x %.6g %s, %.6g x %.6g %s",
+                               m.channel.empty() ? "" : (" '" + m.channel + "'").c_str(), m.nx,
+                               m.ny, m.dx, m.dy, l, m.Lx(), m.Ly(), l));
     if (m.code)
         lines.push_back(format(
             "warning: %ld points (%.3g %%) have the height %s: if that means a missing point, "
@@ -196,8 +259,9 @@ void tell_points(const Measured& m, const char* l, std::vector<std::string>& lin
     if (m.outlier_times > 0)
         lines.push_back(format(
             "outliers: %ld points differ by more than %.4g %s (%.3g standard deviations) "
-            "from the 5 x 5 points around them%s",
+            "from %s around them%s",
             m.outliers.count, m.outliers.threshold, l, m.outlier_times,
+            m.profile ? "lines through two points" : "the 5 x 5 points",
             m.outliers.islands > 0
                 ? format("; %ld of these are alone inside a missing part", m.outliers.islands)
                       .c_str()
@@ -223,7 +287,9 @@ void tell_points(const Measured& m, const char* l, std::vector<std::string>& lin
 void tell_form_and_heights(const Measured& m, const char* l, std::vector<std::string>& lines) {
     std::string form =
         std::string("form '") + kDetrendNames[static_cast<std::size_t>(m.form.how)] + "': ";
-    if (m.form.how == Detrend::plane || m.form.how == Detrend::quadratic)
+    if (m.profile && m.form.how == Detrend::plane)
+        form += format("line of slope %.4g; ", m.form.slope_x);
+    else if (m.form.how == Detrend::plane || m.form.how == Detrend::quadratic)
         form += format("slopes %.4g, %.4g; ", m.form.slope_x, m.form.slope_y);
     if (m.form.how == Detrend::sphere)
         form += format("radius %.6g %s (%s); ", std::abs(m.form.radius), l,
@@ -234,7 +300,7 @@ void tell_form_and_heights(const Measured& m, const char* l, std::vector<std::st
                         told_change(m.without_form, m.filtered, l));
     if (!(m.parameters.sq > 0))
         lines.push_back("heights: all are equal");
-    else
+    else if (!m.profile)
         lines.push_back(format(
             "heights: Sq %.5g %s, Ssk %.3f, Sku %.3f, Sdq %.4g; isotropy ratio of slopes %.2f",
             m.parameters.sq, l, m.parameters.ssk, m.parameters.sku, m.parameters.sdq, m.isotropy));
@@ -277,10 +343,11 @@ void tell_spectrum(const Measured& m, const char* l, std::vector<std::string>& l
 
 // What similar synthetic surfaces need.
 void tell_twins(const Measured& m, std::vector<std::string>& lines) {
-    const bool directional = m.isotropy < kIsotropic, gaussian = m.gaussian();
+    const bool directional = !m.profile && m.isotropy < kIsotropic, gaussian = m.gaussian();
     if (directional) lines.push_back(format("lay at %.0f degrees from x", m.spectrum.lay));
     if (directional || !gaussian)
-        lines.push_back(std::string("the map ") + (directional ? "has a lay" : "") +
+        lines.push_back(std::string(m.profile ? "the profile " : "the map ") +
+                        (directional ? "has a lay" : "") +
                         (directional && !gaussian ? " and " : "") +
                         (gaussian ? "" : "has heights that are not Gaussian") +
                         "; to reproduce this in synthetic surfaces, set " +
@@ -291,11 +358,52 @@ void tell_twins(const Measured& m, std::vector<std::string>& lines) {
 
 }  // namespace
 
+namespace {
+
+void tell_profile(const Measured& m, const char* l, std::vector<std::string>& lines) {
+    const MeasuredProfile& profile = *m.profile;
+    const ProfileParameters& p = profile.parameters;
+    if (profile.cutoff_long > 0)
+        lines.push_back(format(
+            "filter (Gaussian, ISO 16610-21): waves longer than %.4g %s removed, and half of that "
+            "at each end, where the filter reaches beyond the profile; %d points, %.6g %s, remain",
+            profile.cutoff_long, l, m.nx, p.length, l));
+    lines.push_back(format("profile: Ra %.5g, Rq %.5g, Rz %.5g %s, Rsk %.3f, Rku %.3f, Rdq %.4g",
+                           p.ra, p.rq, p.rz, l, p.rsk, p.rku, p.rdq));
+    lines.push_back(
+        profile.cutoff_long > 0
+            ? format("Rz: mean over %d sampling lengths of %.4g %s", p.samplings, p.sampling_length,
+                     l)
+            : std::string("without surface%cutoff_long these are values of the primary profile "
+                          "(Pa, Pq, ...), Rz over its whole length"));
+    lines.push_back(
+        "a profile passes beside most summits: those of the surface are higher and more sharply "
+        "curved than its peaks, and its lay is not seen");
+    if (!profile.fit) return;
+    const ProfileFit& fit = *profile.fit;
+    lines.push_back(format(
+        "surface with such profiles (%s): rms height %.4g +- %.2g %s, rms slope of a profile %.4g "
+        "+- %.2g, 90 %% intervals",
+        m.fit->aspect == 1 ? "isotropic"
+                           : format("lay with aspect %.3g at %.4g degrees, assumed", m.fit->aspect,
+                                    m.fit->direction * 180 / std::numbers::pi)
+                                 .c_str(),
+        fit.sigma.value, fit.sigma.error, l, fit.slope.value, fit.slope.error));
+    if (fit.noise > 0)
+        lines.push_back(format(
+            "white noise of some %.2g %s rms lies under the spectrum; surface%%filter_cutoff "
+            "removes short waves from the profile",
+            std::sqrt(2 * profile.spectrum.highest * fit.noise), l));
+}
+
+}  // namespace
+
 std::vector<std::string> report(const Measured& m, const std::string& length_unit) {
     const char* const l = length_unit.c_str();
     std::vector<std::string> lines;
     tell_points(m, l, lines);
     tell_form_and_heights(m, l, lines);
+    if (m.profile) tell_profile(m, l, lines);
     tell_breaks(m, l, lines);
     tell_spectrum(m, l, lines);
     tell_twins(m, lines);

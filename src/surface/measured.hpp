@@ -4,6 +4,7 @@
 #include "surface/defects.hpp"
 #include "surface/form.hpp"
 #include "surface/measured_spectrum.hpp"
+#include "surface/profile.hpp"
 #include "surface/surface.hpp"
 
 namespace rsc {
@@ -16,6 +17,10 @@ struct MeasureOptions {
     Detrend detrend = Detrend::plane;
     double filter_cutoff = 0;  // 0: no filter [length]
     double outliers = 0;       // threshold of remove_outliers(); 0: outliers are not removed
+    // Of a profile:
+    double cutoff_long = 0;            // 0: no filter
+    bool by_inversion = false;         // the spectrum of its surface; otherwise self-affine
+    double aspect = 1, direction = 0;  // assumed lay of its surface, as in Spectrum
 };
 
 // Roughness before and after each step.
@@ -55,6 +60,7 @@ struct Measured : PointGrid {
     // upper end of the direction-averaged spectrum, or twice the grid step [length]
     double shortest_wave = 0;
     // Skewness within 0.3 of 0 and kurtosis within 0.6 of 3, the scatter of Gaussian samples.
+    std::shared_ptr<const MeasuredProfile> profile;  // null: a map
     bool gaussian() const;
     double points_per_wave() const;  // grid steps in the shortest wave
 };
@@ -67,7 +73,9 @@ inline constexpr double kFewPointsPerWave = 4;
 
 // Subtracts the fitted form, fills missing points (fill_missing) and filters, in place. Throws
 // Error(bad_input) if all points are missing, or if any is missing with Missing::refuse (the
-// message states the first).
+// message states the first). A map of one row is a profile: its `spectrum` and `fit` are those of the
+// surface that has such profiles, whose wavenumbers are stretched by the assumed lay. Its long-wave
+// filter cuts off its ends.
 Measured measure(HeightMap& map, const MeasureOptions& options);
 
 // Processing and properties of a map as lines of text; lengths are followed by `length_unit`.

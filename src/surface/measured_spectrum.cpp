@@ -5,6 +5,20 @@
 #include "surface/height_distribution.hpp"
 
 namespace rsc {
+std::array<double, kWindowReach + 1> squared_transform(bool periodic) {
+    std::array<double, kWindowReach + 1> window{};
+    for (int u = 0; u <= kWindowReach; ++u) {
+        const auto sinc = [](double x) {
+            return x == 0 ? 1.0 : std::sin(std::numbers::pi * x) / (std::numbers::pi * x);
+        };
+        const double amplitude =
+            0.5 * sinc(0.5 * u) + 0.25 * (sinc(0.5 * u - 1) + sinc(0.5 * u + 1));
+        window[static_cast<std::size_t>(u)] =
+            periodic ? (u == 0 ? 1.0 : 0.0) : amplitude * amplitude;
+    }
+    return window;
+}
+
 namespace {
 
 std::vector<double> hann(int n, bool none) {
@@ -162,31 +176,14 @@ struct Rings {
     }
 };
 
-// The squared transform of the window at `reach` half steps: the covariance within a window of
-// length L is a series of waves of length 2 L. The transform of a Hann window is below 1e-4 beyond.
-constexpr int kReach = 5;
-std::array<double, kReach + 1> squared_transform(bool periodic) {
-    std::array<double, kReach + 1> window{};
-    for (int u = 0; u <= kReach; ++u) {
-        const auto sinc = [](double x) {
-            return x == 0 ? 1.0 : std::sin(std::numbers::pi * x) / (std::numbers::pi * x);
-        };
-        const double amplitude =
-            0.5 * sinc(0.5 * u) + 0.25 * (sinc(0.5 * u - 1) + sinc(0.5 * u + 1));
-        window[static_cast<std::size_t>(u)] =
-            periodic ? (u == 0 ? 1.0 : 0.0) : amplitude * amplitude;
-    }
-    return window;
-}
-
 // The sensitivity of the rings of long waves to each wavenumber, from the squared transform of the
 // window.
 std::vector<std::map<std::size_t, double>> sensitivity(const HeightMap& map, const Rings& rings) {
     const int nx = map.nx, ny = map.ny;
-    const std::array<double, kReach + 1> window = squared_transform(map.periodic);
+    const std::array<double, kWindowReach + 1> window = squared_transform(map.periodic);
     constexpr std::size_t long_rings = 32;
     std::vector<std::map<std::size_t, double>> seen(std::min(rings.count, long_rings) + 1);
-    const int half = map.periodic ? 0 : kReach;
+    const int half = map.periodic ? 0 : kWindowReach;
     const int far = static_cast<int>(std::ceil((long_rings + 0.5) * rings.stretch * rings.ring /
                                                std::min(rings.step_x, rings.step_y)));
     for (int j = -std::min(far, ny / 2); j <= std::min(far, ny / 2); ++j)
@@ -275,6 +272,17 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double di
     const double across = 90 / std::numbers::pi * std::arg(modes.directed) + 90;
     s.lay = across < 180 ? across : across - 180;
     return s;
+}
+
+ModePowers mode_powers(const HeightMap& profile) {
+    WindowedMap windowed(profile);
+    const Buffer buffer = windowed.modes();
+    const auto* const modes = reinterpret_cast<const std::complex<double>*>(buffer.get());
+    ModePowers powers;
+    powers.step = 2 * std::numbers::pi / profile.Lx();
+    for (int i = 0; i < windowed.columns(); ++i)
+        powers.power.push_back(std::norm(modes[i]) / (profile.nx * windowed.squares()));
+    return powers;
 }
 
 HeightParameters height_parameters(const HeightMap& map) {

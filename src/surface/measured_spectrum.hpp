@@ -67,6 +67,20 @@ struct MeasuredSpectrum {
 // stretched wavenumber (SelfAffineFit) and plane_psd is empty. Throws Error(no_memory).
 MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect = 1, double direction = 0);
 
+// The power of the Fourier modes of a profile, a map of one row, after the same window: mode j has
+// the wavenumber j step, and all modes, those of negative wavenumbers included, sum up to the mean
+// square height.
+struct ModePowers {
+    double step = 0;            // [1/length]
+    std::vector<double> power;  // of j >= 0 [length^2]
+};
+ModePowers mode_powers(const HeightMap& profile);
+
+// The squared transform of the window at 0, 1, ... half steps: the covariance within a window of
+// length L is a series of waves of length 2 L. That of a Hann window is below 1e-4 beyond.
+inline constexpr int kWindowReach = 5;
+std::array<double, kWindowReach + 1> squared_transform(bool periodic);
+
 // Fits in two steps. First ks, by least squares in logarithms with each ring weighted by its number
 // of modes: a line of slope -2(1+hurst), -0.5 <= hurst <= 1.5, that contains at least a hundredth
 // of the mean square height, with separate lines below and beyond it. The Bayesian information

@@ -118,10 +118,11 @@ Moments grid_moments(const HeightMap& map) {
         for (int i = 0; i < map.nx; ++i) sums[0].add((map(i, j) - mean) * (map(i, j) - mean));
     });
     m.m0 = m0[0].value();
-    if (map.nx < 3 || map.ny < 3) return m;
+    const bool profile = map.ny == 1;  // constant along y
+    if (map.nx < 3 || (map.ny < 3 && !profile)) return m;
 
-    const int edge = map.periodic ? 0 : 1;
-    const auto means = mean_of_rows<8>(edge, map.ny - edge, [&](int j, auto& sums) {
+    const int edge = map.periodic ? 0 : 1, edge_y = profile ? 0 : edge;
+    const auto means = mean_of_rows<8>(edge_y, map.ny - edge_y, [&](int j, auto& sums) {
         auto& [g2, m20, m11, m40, m31, m22, m13, m04] = sums;
         const double* const below = map.row(j > 0 ? j - 1 : map.ny - 1);
         const double* const z = map.row(j);

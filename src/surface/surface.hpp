@@ -17,6 +17,8 @@ struct PointGrid {
     double x0 = 0, y0 = 0;  // coordinates of point (0, 0)
     double x(int i) const { return x0 + i * dx; }
     double y(int j) const { return y0 + j * dy; }
+    // The longer step; a surface of one row is constant along y, whatever its side.
+    double step() const { return ny > 1 ? std::max(dx, dy) : dx; }
     double Lx() const { return nx * dx; }
     double Ly() const { return ny * dy; }
     std::size_t points() const {

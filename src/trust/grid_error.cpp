@@ -126,8 +126,9 @@ double touch_between_points(const HeightMap& map, const Indenter& indenter) {
     clearances(map, indenter, 0, here);
     double highest = -kInfinity;
     // Body 2 may lie between the points altogether.
-    const double reach = indenter.shape->reach() + std::hypot(map.dx, map.dy);
-    if (reach < 3 * std::hypot(map.dx, map.dy))
+    const double reach =
+        indenter.shape->reach() + (map.ny > 1 ? std::hypot(map.dx, map.dy) : map.dx);
+    if (reach < 3 * (map.ny > 1 ? std::hypot(map.dx, map.dy) : map.dx))
         for (const int j : indices(map.ny))
             for (const int i : indices(map.nx)) {
                 const Vec2 d = indenter.from_tip(map.x(i), map.y(j));

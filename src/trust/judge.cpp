@@ -102,7 +102,7 @@ Doubt edges_without_range(const Level& level, const Indenter& indenter, const He
                           const GridError& few, double work) {
     Doubt doubt{Cause::grid};
     if (level.contacts == 0 || level.force == 0) return doubt;
-    const double h = std::max(map.dx, map.dy);
+    const double h = map.step();
     double dN = 0, length = 0;
     for (const double a : level.a) {
         dN += kEdgeShift * h * std::sqrt(8 * std::numbers::pi * work * indenter.E_star * a);
@@ -123,8 +123,7 @@ Doubt edges_of_adhesion(const Level& level, const Indenter& indenter, const Heig
     const double traction = work / range, attracting = level.area + level.cohesive_area,
                  pulled = traction * attracting, contacts = std::max(level.contacts, 1);
     // Of n equal contacts the edges are longer by sqrt(n), and their errors cancel as much.
-    double dN = kEdgeError * traction * std::max(map.dx, map.dy) * 2 *
-                std::sqrt(std::numbers::pi * attracting);
+    double dN = kEdgeError * traction * map.step() * 2 * std::sqrt(std::numbers::pi * attracting);
     if (level.contacts > 0) {
         dN += few.force * std::max(level.force + pulled, 0.0);
         doubt.area =
@@ -299,7 +298,7 @@ GridBodies Judge::bodies(const Indenter& indenter) const {
 Doubt Judge::grid(const Level& level, Path& contact) const {
     const Indenter& indenter = contact.indenter();
     const HeightMap& map = *surface_.map;
-    const double side = std::max(map.dx, map.dy);
+    const double side = map.step();
     const GridError by_size =
         error_of_grid(level, bodies(indenter), indenter.shape->edge(side), side);
     if (options_.physics.of<Adhesion>().work > 0)

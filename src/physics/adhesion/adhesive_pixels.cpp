@@ -164,7 +164,7 @@ AdhesivePixels::AdhesivePixels(const HeightMap& heights_, const Indenter& indent
     const auto& [work, range] = options.physics.of<Adhesion>();
     const Substrate body = substrate_of(indenter);
     if (range > 0) {
-        require_resolved(indenter.E_star, {work, range}, std::max(heights.dx, heights.dy));
+        require_resolved(indenter.E_star, {work, range}, heights.step());
         z0 = range;
         s0 = work / range;
     } else {
