@@ -20,13 +20,13 @@ RSC_ALWAYS_INLINE const Unaligned& load(const float* from) {
 
 // Values at kWide pixels from the pixel of the middle row at from[0]. A tap multiplies the sum of
 // the four pixels at its offsets.
-RSC_ALWAYS_INLINE void convolve_body(int reach, const float* taps, const float* const* rows,
-                                     std::ptrdiff_t at, float* y) {
-    const float* const here = rows[reach] + at;
+RSC_ALWAYS_INLINE void convolve_body(int reach, int beside, const float* taps,
+                                     const float* const* rows, std::ptrdiff_t at, float* y) {
+    const float* const here = rows[beside] + at;
     Eight sum = taps[0] * load(here);
     for (int a = 1; a <= reach; ++a) sum += taps[a] * (load(here - a) + load(here + a));
-    for (int b = 1; b <= reach; ++b) {
-        const float *const below = rows[reach - b] + at, *const above = rows[reach + b] + at,
+    for (int b = 1; b <= beside; ++b) {
+        const float *const below = rows[beside - b] + at, *const above = rows[beside + b] + at,
                            *const tap = taps + b * (reach + 1);
         Eight row = tap[0] * (load(below) + load(above));
         for (int a = 1; a <= reach; ++a)
@@ -37,8 +37,9 @@ RSC_ALWAYS_INLINE void convolve_body(int reach, const float* taps, const float* 
     __builtin_memcpy(y, &sum, sizeof sum);
 }
 RSC_DISPATCH(convolve_eight, convolve_body,
-             (int reach, const float* taps, const float* const* rows, std::ptrdiff_t at, float* y),
-             (reach, taps, rows, at, y))
+             (int reach, int beside, const float* taps, const float* const* rows, std::ptrdiff_t at,
+              float* y),
+             (reach, beside, taps, rows, at, y))
 
 // Cubic B-spline at the four nodes around a place t of the way from the second to the third.
 constexpr std::array<float, 4> spline(double t) {
@@ -64,15 +65,17 @@ double sharpened(double k) {
 
 }  // namespace
 
-PixelStencil::PixelStencil(int reach, const std::function<double(double, double)>& mode,
+PixelStencil::PixelStencil(int reach, int rows, const std::function<double(double, double)>& mode,
                            const std::function<double(int)>& window)
-    : reach_(reach) {
-    if (reach > SparsePlane::kMostReach) throw Error(Failure::internal, "stencil: reach");
+    : reach_(reach), rows_(rows) {
+    if (std::max(reach, rows) > SparsePlane::kMostReach)
+        throw Error(Failure::internal, "stencil: reach");
     // Sums over the modes of a period of 128 pixels, separable in the two directions.
     constexpr int modes = 64;
-    taps_.assign(at((reach + 1) * (reach + 1)), 0.0f);
-    std::vector<double> cosine(at((reach + 1) * modes)), half(at((reach + 1) * modes), 0.0);
-    for (int a = 0; a <= reach; ++a)
+    taps_.assign(at((rows + 1) * (reach + 1)), 0.0f);
+    std::vector<double> cosine(at((std::max(reach, rows) + 1) * modes)),
+        half(at((reach + 1) * modes), 0.0);
+    for (int a = 0; a <= std::max(reach, rows); ++a)
         for (int i = 0; i < modes; ++i)
             cosine[at(a * modes + i)] = std::cos(a * std::numbers::pi * (i + 0.5) / modes) / modes;
     for (int j = 0; j < modes; ++j)
@@ -82,7 +85,7 @@ PixelStencil::PixelStencil(int reach, const std::function<double(double, double)
             for (int a = 0; a <= reach; ++a)
                 half[at(a * modes + j)] += value * cosine[at(a * modes + i)];
         }
-    for (int b = 0; b <= reach; ++b)
+    for (int b = 0; b <= rows; ++b)
         for (int a = 0; a <= reach; ++a) {
             double value = 0;
             for (int j = 0; j < modes; ++j)
@@ -93,7 +96,7 @@ PixelStencil::PixelStencil(int reach, const std::function<double(double, double)
 
 double PixelStencil::transform(double k) const {
     double all = 0;
-    for (int b = 0; b <= reach_; ++b)
+    for (int b = 0; b <= rows_; ++b)
         for (int a = 0; a <= reach_; ++a)
             all += (a > 0 ? 2 * std::cos(k * a) : 1.0) * (b > 0 ? 2.0 : 1.0) *
                    static_cast<double>(taps_[at(b * (reach_ + 1) + a)]);
@@ -112,9 +115,10 @@ std::function<double(double)> with_diagonal(const std::function<double(double)>&
 }
 
 PixelStencil inverse_stencil(double aspect, const std::function<double(double)>& share) {
-    constexpr int reach = 6;
+    const bool row = aspect >= kEndless;
+    const int reach = row ? 15 : 6;
     return PixelStencil(
-        reach,
+        reach, row ? 0 : reach,
         [&](double kx, double ky) {
             const double k = std::hypot(kx, ky / aspect);
             return 0.5 * k / (share ? 1 + share(k) : 1);
@@ -149,7 +153,7 @@ void SparsePlane::convolve(const PixelStencil& stencil, const PixelSet& set, con
                            float* y, int threads) {
     while (bands_.size() < most_threads(threads))
         bands_.emplace_back(stride_ * at(kBand + 2 * kMostReach), 0.0f);
-    const int reach = stencil.reach();
+    const int reach = stencil.rows_;
     parallel_for((ny_ + kBand - 1) / kBand, 1, threads, [&](int band, std::size_t worker) {
         const int first = band * kBand, end = std::min(first + kBand, ny_);
         if (set.rows[at(first)] == set.rows[at(end)]) return;
@@ -165,7 +169,7 @@ void SparsePlane::convolve(const PixelStencil& stencil, const PixelSet& set, con
             for (std::size_t k = set.rows[at(j)]; k < set.rows[at(j) + 1];) {
                 const int from = set.column[k];
                 float values[kWide];
-                convolve_eight(reach, stencil.taps_.data(), rows, from, values);
+                convolve_eight(stencil.reach_, reach, stencil.taps_.data(), rows, from, values);
                 for (; k < set.rows[at(j) + 1] && set.column[k] < from + static_cast<int>(kWide);
                      ++k)
                     y[k] = values[set.column[k] - from];
@@ -195,7 +199,7 @@ SplitPixels::SplitPixels(int nx, int ny, double aspect, const Share& share)
                          1;
               }),
       near_(
-          kNear,
+          kNear, kNear,
           [&](double kx, double ky) {
               const double k = std::hypot(kx, ky / aspect);
               return 2 / k * std::erf(k * kSplit) * (share ? 1 + share(k) : 1);

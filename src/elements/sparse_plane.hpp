@@ -14,20 +14,21 @@ struct PixelSet {
     const std::vector<std::int32_t>& column;
 };
 
-// A function of the offset (a, b) with |a|, |b| <= reach, even in a and in b, without unit.
+// A function of the offset (a, b) with |a| <= reach and |b| <= rows, even in a and in b, without
+// unit.
 class PixelStencil {
 public:
     PixelStencil() = default;
     // The function with the transform `mode`(kx, ky), kx and ky in (0, pi), multiplied by
     // `window`(a) window(b).
-    PixelStencil(int reach, const std::function<double(double, double)>& mode,
+    PixelStencil(int reach, int rows, const std::function<double(double, double)>& mode,
                  const std::function<double(int)>& window);
     int reach() const { return reach_; }
     double transform(double k) const;  // at the wavenumber (k, 0)
 
 private:
     friend class SparsePlane;
-    int reach_ = 0;
+    int reach_ = 0, rows_ = 0;
     std::vector<float> taps_;  // of the offsets a, b >= 0
 };
 
@@ -39,7 +40,7 @@ std::function<double(double)> with_diagonal(const std::function<double(double)>&
                                             double diagonal);
 
 // Preconditioner: K^-1 of PeriodicPixels with dx = 1, of modes |k|/2/(1 + share), between pixels at
-// most six apart; positive semidefinite. Pixels of a surface of one row, which is constant along y,
+// most six apart, along a single row 15; positive semidefinite. Pixels of a surface of one row, which is constant along y,
 // have the aspect kEndless: its waves run along x.
 inline constexpr double kEndless = 1e6;
 PixelStencil inverse_stencil(double aspect, const std::function<double(double)>& share = {});

@@ -91,14 +91,33 @@ HeightMap read_smd(const std::string& path, const std::string& length_unit, cons
     return map;
 }
 
+// Of a table of more columns, x in the first, and the heights in the one of this number.
+TextTable two_columns(const std::string& path, const TextTable& all, const std::string& channel) {
+    const auto number = number_in_file(channel);
+    if (!number || !(*number >= 2 && *number <= double(all.columns)))
+        bad_input(path, ":", all.line[0], ": ", all.columns,
+                  " columns; a profile has one, of heights, or two, x and z; of more, x in the "
+                  "first, surface%channel must be the number of that with the heights, from '2' to "
+                  "'",
+                  all.columns, "'");
+    TextTable two = all;
+    two.columns = 2;
+    two.values.clear();
+    for (std::size_t row = 0; row < all.rows; ++row)
+        for (const std::size_t column : {std::size_t{0}, std::size_t(*number) - 1})
+            two.values.push_back(all.values[row * all.columns + column]);
+    return two;
+}
+
 // Two columns x z, in any order of the lines, or one column of heights.
-HeightMap read_text_profile(const std::string& path, std::optional<double> L, bool missing,
-                            const MapKeys& keys, const std::string& length_unit,
-                            MapOrigin* origin) {
-    const TextTable table = read_profile_table(path, missing);
+HeightMap read_text_profile(const std::string& path, std::optional<double> L,
+                            const std::string& channel, bool missing, const MapKeys& keys,
+                            const std::string& length_unit, MapOrigin* origin) {
+    TextTable table = read_profile_table(path, missing);
     if (table.columns > 2)
-        bad_input(path, ":", table.line[0], ": ", table.columns,
-                  " columns; a profile has one, of heights, or two, x and z");
+        table = two_columns(path, table, channel);
+    else if (!channel.empty())
+        bad_input(path, ": has no channel '", channel, "'; it has ", table.columns, " columns");
     const bool with_x = table.columns == 2;
     const UnitFactors factors = text_factors(path, table, keys, length_unit, with_x);
     if (with_x && keys.pixel)
@@ -187,9 +206,9 @@ HeightMap read_profile(const std::string& path, std::optional<double> L,
     const bool fill = missing == Missing::fill;
     const bool netcdf = is_netcdf(path);
     const std::string start = first_bytes(path);
-    if (!channel.empty() && !netcdf)
+    if (!channel.empty() && !netcdf && (is_smd(start) || is_sdf(start)))
         bad_input(path, ": has no channel '", channel,
-                  "'; of profiles only NetCDF files have them");
+                  "'; only NetCDF files and texts of several columns have them");
     HeightMap map;
     if (netcdf) {
         map = read_netcdf_profile(path, L, length_unit, channel, fill, keys, origin);
@@ -204,7 +223,7 @@ HeightMap read_profile(const std::string& path, std::optional<double> L,
         check_given_L(path, "x", map.nx, map.dx, L);
     } else {
         refuse_unknown(path, start);
-        map = read_text_profile(path, L, fill, keys, length_unit, origin);
+        map = read_text_profile(path, L, channel, fill, keys, length_unit, origin);
     }
     map.dy = thickness;
     check_heights(path, map, fill, false, "");

@@ -59,7 +59,8 @@ void ResultTable::measured_profile(const MeasuredProfile& p) {
         places(p.trace_x0, p.trace.size()));
     add_absent("trace", {"trace_x"}, unit(1), "heights of the profile as read", p.trace,
                "missing points are missing");
-    add("trace_form", {"trace_x"}, unit(1), "form subtracted from them", p.form);
+    add_absent("trace_form", {"trace_x"}, unit(1), "form subtracted from them", p.form,
+               "missing at missing points");
     file_.dimension("profile_x", p.heights.size());
     add("profile_x", {"profile_x"}, unit(1), "place of the points of the treated profile",
         places(m.x0, p.heights.size()));

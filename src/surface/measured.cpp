@@ -145,7 +145,8 @@ void measure_profile(const HeightMap& map, const MeasureOptions& options, Measur
     ProfileSpectrum isotropic = p.spectrum;
     for (double* const k : {&isotropic.step, &isotropic.lowest, &isotropic.highest})
         *k /= p.stretch;
-    for (double& k : isotropic.wavenumber) k /= p.stretch;
+    for (auto* const all : {&isotropic.wavenumber, &isotropic.middle})
+        for (double& k : *all) k /= p.stretch;
     for (double& c : isotropic.psd) c *= p.stretch;
     p.fit = fit_profile(isotropic);
     m.fit = p.fit->surface;

@@ -98,13 +98,14 @@ ProfileSpectrum profile_spectrum(const HeightMap& profile, double cutoff_long, d
             j + (j < single ? 1
                             : std::max<std::size_t>(
                                   1, static_cast<std::size_t>(wide * static_cast<double>(j)))));
-        double sum = 0, logs = 0, count = 0;
+        double sum = 0, logs = 0, count = 0, first = 0;
         for (; j < end; ++j) {
             const double q = static_cast<double>(j) * s.step;
             if (q < s.lowest || q > s.highest) continue;
             double gain = 1;
             if (cutoff_long > 0) gain *= 1 - gaussian_transmission(cutoff_long, q);
             if (cutoff_short > 0) gain *= gaussian_transmission(cutoff_short, q);
+            if (count == 0) first = q;
             sum += modes.power[j] / (gain * gain);
             logs += std::log(q);
             count += 1;
@@ -113,6 +114,7 @@ ProfileSpectrum profile_spectrum(const HeightMap& profile, double cutoff_long, d
         s.wavenumber.push_back(std::exp(logs / count));
         s.psd.push_back(sum / count / s.step);
         s.modes.push_back(count);
+        s.middle.push_back(first + 0.5 * (count - 1) * s.step);
     }
     return s;
 }
@@ -133,10 +135,9 @@ std::vector<double> isotropic_spectrum(const std::vector<double>& wavenumber,
             const double slope =
                 std::log(c1[a + 1] / c1[a]) / std::log(wavenumber[a + 1] / wavenumber[a]);
             if (last && !(slope < 0)) continue;
-            const double from = wavenumber[i], to = last ? beyond * from : wavenumber[i + 1],
-                         scale = slope * c1[i] * std::pow(from, -slope);
-            // C1' = scale q^(slope - 1), in t = sqrt(q^2 - k^2) without a singularity; several
-            // pieces where the power law falls far.
+            const double from = wavenumber[i], to = last ? beyond * from : wavenumber[i + 1];
+            // C1' dq/sqrt(q^2 - k^2) = slope C1(from)/from^2 (q/from)^(slope - 2) dt with q^2 = k^2 +
+            // t^2, without a singularity; several pieces where the power law falls far.
             const double t0 = std::sqrt(std::max(from * from - k * k, 0.0)),
                          t1 = std::sqrt(to * to - k * k);
             const int pieces = last ? 40 : 1;
@@ -144,10 +145,12 @@ std::vector<double> isotropic_spectrum(const std::vector<double>& wavenumber,
             for (int piece = 1; piece <= pieces; ++piece) {
                 const double high =
                     last ? t0 + (t1 - t0) * std::pow(static_cast<double>(piece) / pieces, 4) : t1;
-                sum +=
-                    scale * Rule::integrate(
-                                [&](double t) { return std::pow(k * k + t * t, 0.5 * slope - 1); },
-                                low, high);
+                sum += slope * c1[i] / (from * from) *
+                       Rule::integrate(
+                           [&](double t) {
+                               return std::pow((k * k + t * t) / (from * from), 0.5 * slope - 1);
+                           },
+                           low, high);
                 low = high;
             }
         }

@@ -30,7 +30,8 @@ void cut_ends(HeightMap& profile, int points, std::vector<std::uint8_t>& mask);
 // Power spectral density C1 of a profile in bands of wavenumbers: its integral over all q, negative
 // ones included, is the mean square height.
 struct ProfileSpectrum {
-    std::vector<double> wavenumber;  // of the bands [1/length]
+    std::vector<double> wavenumber;  // of the bands, mean of the logarithms [1/length]
+    std::vector<double> middle;      // between the first and the last mode of each [1/length]
     std::vector<double> psd;         // [length^3]
     std::vector<double> modes;       // number of Fourier modes
     double step = 0;                 // between modes [1/length]

@@ -40,13 +40,18 @@ public:
     }
 
     // C1/(Phi0 kl) of each band, without noise.
-    std::vector<double> expected(const Point& x, bool plateau) const {
+    // `roughly`: in the middle of each band, without the blur by the window.
+    std::vector<double> expected(const Point& x, bool plateau, bool roughly = false) const {
         const double kl = std::exp(x[log_kl]), ks = std::exp(x[log_ks]);
         std::vector<double> e(s_.psd.size());
         for (const auto i : indices(e)) {
             const double q = s_.wavenumber[i], mode = q / s_.step;
-            if (mode > double(kBlurred)) {
+            if (roughly) {
                 e[i] = shape(q, kl, ks, x[hurst], plateau);
+                continue;
+            }
+            if (mode > double(kBlurred)) {
+                e[i] = of_band(i, kl, ks, x[hurst], plateau);
                 continue;
             }
             double sum = 0, shares = 0;
@@ -60,6 +65,34 @@ public:
             e[i] = sum / shares;
         }
         return e;
+    }
+    // The mean over a band, which the window makes wider; in the middle unless there is an end of
+    // the self-affine band near it, where C1 has a corner.
+    double of_band(std::size_t i, double kl, double ks, double h, bool plateau) const {
+        constexpr int points = 8;
+        constexpr double near = 1.3;
+        const auto [low, high] = borders(i);
+        if (high * near < ks && low / near > kl) return shape(s_.wavenumber[i], kl, ks, h, plateau);
+        double sum = 0;
+        for (const int k : indices(points))
+            sum += shape(low + (k + 0.5) / points * (high - low), kl, ks, h, plateau) / points;
+        return sum;
+    }
+    // The share of the modes of a band that its mean depends on: where C1 ends, only those before
+    // the end.
+    double evenness(std::size_t i, const Point& x, bool plateau) const {
+        constexpr int points = 64;
+        const auto [low, high] = borders(i);
+        double sum = 0, squares = 0;
+        for (const int k : indices(points)) {
+            const double c =
+                shape(std::max(low + (k + 0.5) / points * (high - low), 0.25 * s_.step),
+                      std::exp(x[log_kl]), std::exp(x[log_ks]), x[hurst], plateau) +
+                std::exp(x[log_noise]) + kLeast;
+            sum += c;
+            squares += c * c;
+        }
+        return std::max(sum * sum / (points * squares), 1 / s_.modes[i]);
     }
     // The misfit, and ln(Phi0 kl).
     std::pair<double, double> misfit(std::vector<double> e, double noise) const {
@@ -79,9 +112,17 @@ public:
         return misfit(expected(x, plateau), std::exp(x[log_noise]));
     }
     const ProfileSpectrum& spectrum() const { return s_; }
-    static constexpr double kLeast = 1e-14;  // relative to C1 at kl: leakage
+    static constexpr double kLeast = 1e-30;  // relative to C1 at kl: no logarithm of 0
 
 private:
+    // Of a band, with what the window adds to it.
+    std::pair<double, double> borders(std::size_t i) const {
+        constexpr double window = 4;  // squared width, in modes
+        const double width = s_.step * std::sqrt(s_.modes[i] * s_.modes[i] + window),
+                     low = s_.middle[i] - 0.5 * width;
+        return {low, low + width};
+    }
+
     const ProfileSpectrum& s_;
     std::array<double, 6> window_;
     double weights_ = 0, highest_ = 0;
@@ -164,7 +205,7 @@ std::array<Model, 2> best_of_grid(const Likelihood& likelihood) {
                 if (!(ks > kl + 0.5)) continue;
                 for (const bool plateau : {false, true}) {
                     Model m{{h, kl, ks, 0}, plateau};
-                    const std::vector<double> e = likelihood.expected(m.x, plateau);
+                    const std::vector<double> e = likelihood.expected(m.x, plateau, true);
                     const double top = *std::ranges::max_element(e);
                     for (const double noise : {1e-9 * top, last * top}) {
                         std::tie(m.misfit, m.scale) = likelihood.misfit(e, noise);
@@ -210,7 +251,7 @@ public:
         }
         double square = 0;
         for (const auto i : indices(here)) {
-            const double m = kHann * s.modes[i],
+            const double m = kHann * s.modes[i] * likelihood.evenness(i, best.x, best.plateau),
                          off = s.psd[i] / std::exp(here[i] + best.scale) - 1;
             for (std::size_t a = 0; a <= kParameters; ++a)
                 for (std::size_t b = 0; b <= kParameters; ++b)
@@ -288,7 +329,12 @@ ProfileFit fit_profile(const ProfileSpectrum& spectrum) {
     if (!can_fit(spectrum))
         bad_input("the profile is too short for a spectrum: it has ", spectrum.psd.size(),
                   " bands of waves");
-    const Likelihood likelihood(spectrum);
+    // Profiles without short waves have rounding errors there, of which noise could not be told.
+    constexpr double rounding = 1e-12;
+    ProfileSpectrum rounded = spectrum;
+    const double highest = *std::ranges::max_element(spectrum.psd);
+    for (double& p : rounded.psd) p = std::max(p, rounding * highest);
+    const Likelihood likelihood(rounded);
     std::array<bool, kParameters> held{};
     std::array<Model, 2> models = best_of_grid(likelihood);
     for (Model& m : models)
@@ -322,7 +368,9 @@ ProfileFit fit_profile(const ProfileSpectrum& spectrum) {
     if (!s.ks_seen) band[log_ks] = std::log(spectrum.highest);
     const auto fitted = [&](Parameter parameter, bool is_seen) {
         const double value = std::exp(band[std::size_t(parameter)]);
-        return Fitted{value, is_seen ? value * kNinety * errors.of(parameter) : 0.0};
+        // An end is not known better than the modes are apart.
+        return Fitted{
+            value, is_seen ? std::max(value * kNinety * errors.of(parameter), spectrum.step) : 0.0};
     };
     s.kl = fitted(log_kl, s.kl_seen);
     s.ks = fitted(log_ks, s.ks_seen);

@@ -165,12 +165,54 @@ TEST(westergaard_wave) {
         const auto contact = make_element_contact(row, flat, exact());
         for (const double share : {0.01, 0.1, 0.3, 0.6, 0.9}) {
             const Level level = contact->at_force(share * full);
-            CHECK_CLOSE(level.area, 2 / pi * std::asin(std::sqrt(share)),
-                        std::max(1e-4, 1.25 / n));
+            CHECK_CLOSE(level.area, 2 / pi * std::asin(std::sqrt(share)), std::max(1e-4, 1.25 / n));
             CHECK_RELATIVE(level.pressure_max, 2 * full * std::sqrt(share),
                            3 / (share * n * n) + 2e-6);
         }
     }
+}
+
+TEST(a_wavy_roller_against_a_dense_solution) {
+    // Strips of uniform pressure: w_i = -(2/(pi E*)) sum p_j int ln(|x_i - s|/D) ds, integrated by
+    // Gauss's rule of two points on 32 parts of a strip, and in closed form on its own; p >= 0 by
+    // Gauss and Seidel.
+    const int n = 96;
+    const double step = 0.01, E = 1e5, D = n * step, R = 20;
+    HeightMap row =
+        map_of(n, 1, step, [](double x, double) { return 2e-4 * std::cos(37 * x + 1); });
+    row.dy = 3;
+    const Indenter body = roller(R, E, row.dy);
+    const auto contact = make_element_contact(row, body, exact());
+    const double Z0 = contact->first_touch() - 6e-4;
+    const Level level = contact->at_separation(Z0);
+    std::vector<double> kernel(n), p(n, 0.0), w(n, 0.0);
+    for (const int d : indices(n)) {
+        double sum = d == 0 ? step * (std::log(0.5 * step / D) - 1) : 0;
+        for (int k = 0; d > 0 && k < 64; ++k) {
+            const double s = (k / 2 + 0.5 + (k % 2 == 0 ? -0.5 : 0.5) / std::sqrt(3.0)) / 32 - 0.5;
+            sum += step / 64 * std::log((d + s) * step / D);
+        }
+        kernel[std::size_t(d)] = -2 / (pi * E) * sum;
+    }
+    for (int sweep = 0; sweep < 20000; ++sweep)
+        for (const int i : indices(n)) {
+            const auto at = std::size_t(i);
+            const double over = body.clearance(row.x(i), row.y(0), row(i, 0)) - Z0;
+            const double next = std::max(0.0, p[at] + (over - w[at]) / kernel[0]),
+                         change = next - p[at];
+            p[at] = next;
+            for (int j = 0; change != 0 && j < n; ++j)
+                w[std::size_t(j)] += change * kernel[std::size_t(std::abs(i - j))];
+        }
+    double force = 0;
+    std::size_t pressed = 0;
+    for (const double value : p) {
+        force += value * step;
+        pressed += value > 0;
+    }
+    CHECK(level.contacts > 1 && level.pixels.index.size() == pressed);
+    CHECK_RELATIVE(level.force / row.dy, force, 1e-7);
+    CHECK_RELATIVE(level.pressure_max, std::ranges::max(p), 1e-6);
 }
 
 TEST(energy_and_stiffness_of_a_line) {

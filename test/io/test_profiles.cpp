@@ -58,7 +58,12 @@ TEST(texts_of_styluses) {
     std::string damaged = heights;
     damaged.replace(damaged.find("0.1\r"), 3, "O.1");
     REFUSED(read(damaged, {.pixel = 0.5}), "in two places");
-    REFUSED(read("1 2 3\n" + rows([](int) { return std::string("1 2 3"); })), "3 columns");
+    // Several columns: the number of that with the heights.
+    const std::string three =
+        rows([](int i) { return number(0.5 * i) + " 7 " + number(0.01 * i); });
+    check(read_profile(folder.write("three", "N\tRaw\tZ\n" + three), {}, "um", "3", Missing::refuse,
+                       {}, 1));
+    REFUSED(read(three), "surface%channel");
     // Missing points: words, and places without a line.
     std::string holes = pairs(" ", 1, 1);
     holes.erase(holes.find("3.5 "), std::string("3.5 0.07\r\n").size());

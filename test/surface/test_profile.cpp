@@ -30,7 +30,7 @@ TEST(parameters_of_a_sine) {
     CHECK_RELATIVE(p.rz, 2 * A, 1e-12);
     CHECK_CLOSE(p.rsk, 0, 1e-12);
     CHECK_RELATIVE(p.rku, 1.5, 1e-12);
-    CHECK_RELATIVE(p.rdq, k * A / std::sqrt(2.0), 1e-4);  // ends left out, sixth order
+    CHECK_RELATIVE(p.rdq, k * A / std::sqrt(2.0), 6.0 / n);  // 6 points left out, sixth order
 }
 
 TEST(forms_of_profiles) {
@@ -88,13 +88,13 @@ TEST(spikes_and_missing_points_of_a_profile) {
 TEST(abel_pair_of_a_gaussian) {
     // Phi = exp(-k^2) has C1 = sqrt(pi) exp(-q^2).
     std::vector<double> q, c1;
-    for (double k = 0.01; k < 6; k *= 1.01) {
+    for (double k = 0.01; k < 6; k *= 1.003) {
         q.push_back(k);
         c1.push_back(std::sqrt(pi) * std::exp(-k * k));
     }
     const std::vector<double> phi = isotropic_spectrum(q, c1);
     for (const auto i : indices(q))
-        if (q[i] < 3) CHECK_RELATIVE(phi[i], std::exp(-q[i] * q[i]), 2e-4);  // power laws between
+        if (q[i] < 2) CHECK_RELATIVE(phi[i], std::exp(-q[i] * q[i]), 3e-4);  // power laws between
 }
 
 SelfAffineFit surface(double H, bool plateau) {
