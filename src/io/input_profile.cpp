@@ -109,7 +109,45 @@ TextTable two_columns(const std::string& path, const TextTable& all, const std::
     return two;
 }
 
-// Two columns x z, in any order of the lines, or one column of heights.
+// The heights of x z pairs: as they follow each other, with x rounded to any digit, or at the places
+// of x on a uniform grid, in any order and with places left out.
+HeightMap place_pairs(const std::string& path, const TextTable& table) {
+    std::vector<double> x;
+    std::vector<double> z;
+    for (std::size_t i = 0; i < table.rows; ++i) {
+        x.push_back(table.values[2 * i]);
+        z.push_back(table.values[2 * i + 1]);
+    }
+    HeightMap map;
+    if (x.size() > 1 && is_uniform(x)) {
+        if (x.back() < x.front()) {
+            std::ranges::reverse(x);
+            std::ranges::reverse(z);
+        }
+        map = allocate_profile(path, z.size());
+        std::ranges::copy(z, map.data.get());
+        map.x0 = x.front();
+        map.dx = (x.back() - x.front()) / double(x.size() - 1);
+        return map;
+    }
+    const TextAxis axis = text_axis(path, table, 0, "x");
+    map = allocate_profile(path, axis.count);
+    std::fill_n(map.data.get(), axis.count, std::nan(""));
+    std::vector<long> line(axis.count, 0);
+    for (std::size_t i = 0; i < table.rows; ++i) {
+        const std::size_t k = axis.index(x[i]);
+        if (line[k] > 0)
+            bad_input(path, ":", table.line[i], ": x = ", x[i], " is already in line ", line[k],
+                      "; has x too few digits?");
+        line[k] = table.line[i];
+        map.data[k] = z[i];
+    }
+    map.x0 = axis.first;
+    map.dx = axis.step;
+    return map;
+}
+
+// Two columns x z, or one column of heights.
 HeightMap read_text_profile(const std::string& path, std::optional<double> L,
                             const std::string& channel, bool missing, const MapKeys& keys,
                             const std::string& length_unit, MapOrigin* origin) {
@@ -126,20 +164,9 @@ HeightMap read_text_profile(const std::string& path, std::optional<double> L,
         bad_input(path, ": one column has no x; surface%coordinate_unit is for two columns");
     HeightMap map;
     if (with_x) {
-        const TextAxis x = text_axis(path, table, 0, "x");
-        map = allocate_profile(path, x.count);
-        std::fill_n(map.data.get(), x.count, std::nan(""));
-        std::vector<long> line(x.count, 0);
-        for (std::size_t i = 0; i < table.rows; ++i) {
-            const std::size_t k = x.index(table.values[2 * i]);
-            if (line[k] > 0)
-                bad_input(path, ":", table.line[i], ": x = ", table.values[2 * i],
-                          " is already in line ", line[k], "; has x too few digits?");
-            line[k] = table.line[i];
-            map.data[k] = table.values[2 * i + 1];
-        }
-        map.x0 = x.first * factors.coordinates;
-        map.dx = x.step * factors.coordinates;
+        map = place_pairs(path, table);
+        map.x0 *= factors.coordinates;
+        map.dx *= factors.coordinates;
     } else {
         map = allocate_profile(path, table.rows);
         std::ranges::copy(table.values, map.data.get());

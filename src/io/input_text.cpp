@@ -469,7 +469,14 @@ void find_sigmasurf(std::string_view text, long line, std::vector<Mention>& foun
         found.push_back({Mention::spacing, "um", *value[0].number, line});
 }
 
-// The blocks of lines with as many numbers each, between lines of text.
+std::size_t separators_at_end(std::string_view text) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(text.substr(text.find_last_not_of(" \t\r,;") + 1),
+                              [](char c) { return c == ',' || c == ';'; }));
+}
+
+// The blocks of lines with as many numbers each, between lines of text. Separators with which every
+// line ends are no empty cells.
 class ProfileBlocks {
 public:
     ProfileBlocks(const std::string& path, bool missing) : path_(path), missing_(missing) {}
@@ -479,12 +486,20 @@ public:
         std::string_view cells = text.substr(0, text.find('#'));
         cells = cells.substr(std::min(cells.find_first_not_of(" \t\r"), cells.size()));
         if (cells.empty()) return;
+        const std::size_t ends = separators_at_end(cells);
+        if (block_.rows == 0) ends_ = ends;
+        for (std::size_t k = 0; k < std::min(ends, ends_); ++k)
+            cells = cells.substr(0, cells.find_last_of(",;"));
         Style style = block_.rows > 0 ? style_ : Style{};
         std::size_t count = 0;
         std::string why;
         try {
-            const Row row = parse(text, path_, line, style, missing_, values);
+            const Row row = parse(cells, path_, line, style, missing_, values);
             count = row.count;
+            if (missing_ && row.open_end && count + 1 == block_.columns) {
+                values.push_back(std::nan(""));
+                ++count;
+            }
         } catch (const Error& error) {
             why = error.what();
         }
@@ -537,6 +552,7 @@ private:
     TextTable block_, longest_;
     Style style_;
     std::size_t second_ = 0;  // rows of the second longest
+    std::size_t ends_ = 0;    // separators at the end of its lines
     std::string heading_, broken_;
     long heading_line_ = 0;
     std::vector<Mention> others_;

@@ -72,6 +72,15 @@ double last_digit(const std::vector<double>& values) {
 
 }  // namespace
 
+bool is_uniform(const std::vector<double>& c) {
+    const double step = (c.back() - c.front()) / double(c.size() - 1);
+    if (!(std::abs(step) > 0)) return false;  // also where one is missing
+    const double rounding = 1.01 * last_digit(c);
+    for (const auto i : indices(c))
+        if (!(std::abs(c[i] - (c.front() + double(i) * step)) <= rounding)) return false;
+    return true;
+}
+
 TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t column,
                    const char* name) {
     const char* const read_as = table.columns == 2 ? ": two columns are read as x z of a profile; "
@@ -264,16 +273,6 @@ UnitFactors text_factors(const std::string& path, const TextTable& table, const 
 }
 
 namespace {
-
-// True if the values are uniform to the rounding of their digits.
-bool is_uniform(const std::vector<double>& c) {
-    const double step = (c.back() - c.front()) / double(c.size() - 1);
-    if (!(std::abs(step) > 0)) return false;  // also where one is missing
-    const double rounding = 1.01 * last_digit(c);
-    for (const auto i : indices(c))
-        if (!(std::abs(c[i] - (c.front() + double(i) * step)) <= rounding)) return false;
-    return true;
-}
 
 // Refuses a matrix whose first line and first column are the coordinates, with an empty corner.
 void refuse_coordinates(const std::string& path, const TextTable& table) {

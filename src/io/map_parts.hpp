@@ -17,6 +17,8 @@ struct TextAxis {
     std::size_t count = 0;
     std::size_t index(double c) const { return at(std::lround((c - first) / step)); }
 };
+// True if the values are uniform to the rounding of their digits.
+bool is_uniform(const std::vector<double>& c);
 // Throws Error(bad_input) unless the values are uniform to a hundredth of their step.
 TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t column,
                    const char* name);

@@ -318,7 +318,7 @@ void tell_spectrum(const Measured& m, const char* l, std::vector<std::string>& l
         const double two_pi = 2 * std::numbers::pi;
         const char* const plateau =
             !fit.kl_seen        ? ""
-            : !fit.plateau_seen ? " (the map is too small to tell whether there is a plateau above)"
+            : !fit.plateau_seen ? " (too few long waves to tell whether there is a plateau above)"
             : fit.plateau       ? " (plateau above)"
                                 : "";
         lines.push_back(format(
@@ -332,7 +332,7 @@ void tell_spectrum(const Measured& m, const char* l, std::vector<std::string>& l
             l, plateau, two_pi / fit.ks.value, l, fit.ks_seen ? "" : " (limit of the grid)",
             m.points_per_wave()));
     } else {
-        lines.push_back("spectrum: not fitted, the map is too small or too flat");
+        lines.push_back("spectrum: not fitted, there are too few points or no heights");
     }
     if (m.points_per_wave() < kFewPointsPerWave)
         lines.push_back(

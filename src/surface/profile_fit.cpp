@@ -19,8 +19,10 @@ using Point = std::array<double, kParameters>;
 
 // int of u^(H - 1/2) (1 - u)^(-1/2) du from 0 to (q/k)^2: the part of C1 from the waves beyond k.
 double part_beyond(double q, double k, double h) {
+    using namespace boost::math::policies;
+    constexpr policy<promote_double<false>> in_double;
     const double u = std::min(q * q / (k * k), 1.0);
-    return boost::math::beta(h + 0.5, 0.5, u);
+    return boost::math::beta(h + 0.5, 0.5, u, in_double);
 }
 
 // C1/(Phi0 kl): the band, and the plateau below it.
@@ -36,20 +38,14 @@ class Likelihood {
 public:
     explicit Likelihood(const ProfileSpectrum& s) : s_(s), window_(squared_transform(false)) {
         for (const double m : s.modes) weights_ += kHann * m;
-        highest_ = *std::ranges::max_element(s.psd);
     }
 
     // C1/(Phi0 kl) of each band, without noise.
-    // `roughly`: in the middle of each band, without the blur by the window.
-    std::vector<double> expected(const Point& x, bool plateau, bool roughly = false) const {
+    std::vector<double> expected(const Point& x, bool plateau) const {
         const double kl = std::exp(x[log_kl]), ks = std::exp(x[log_ks]);
         std::vector<double> e(s_.psd.size());
         for (const auto i : indices(e)) {
             const double q = s_.wavenumber[i], mode = q / s_.step;
-            if (roughly) {
-                e[i] = shape(q, kl, ks, x[hurst], plateau);
-                continue;
-            }
             if (mode > double(kBlurred)) {
                 e[i] = of_band(i, kl, ks, x[hurst], plateau);
                 continue;
@@ -125,7 +121,7 @@ private:
 
     const ProfileSpectrum& s_;
     std::array<double, 6> window_;
-    double weights_ = 0, highest_ = 0;
+    double weights_ = 0;
 };
 
 struct Model {
@@ -188,32 +184,52 @@ Model minimise(const Likelihood& likelihood, Model start, const std::array<bool,
     return *std::ranges::min_element(simplex, {}, &Model::misfit);
 }
 
+// The parts of C1/(Phi0 kl) that end at each of the wavenumbers `ends`, in the middle of each band.
+std::vector<std::vector<double>> parts_beyond(const std::vector<double>& ends,
+                                              const std::vector<double>& q, double h) {
+    std::vector<std::vector<double>> parts;
+    for (const double end : ends) {
+        parts.emplace_back();
+        for (const double wave : q)
+            parts.back().push_back(part_beyond(wave, std::max(wave, end), h));
+    }
+    return parts;
+}
+
 // The best of a coarse grid of models, with and without a plateau.
 std::array<Model, 2> best_of_grid(const Likelihood& likelihood) {
     const ProfileSpectrum& s = likelihood.spectrum();
     const double low = std::log(0.5 * s.wavenumber.front()), high = std::log(s.wavenumber.back());
     constexpr int kls = 20, kss = 14;
+    std::vector<double> kl, ks{std::exp(high + 5)};
+    for (int k = 0; k < kls; ++k) kl.push_back(std::exp(low + (high - low) * 0.8 * k / kls));
+    for (int k = 0; k < kss; ++k) ks.push_back(std::exp(high - (high - low) * 0.8 * k / kss));
     std::array<Model, 2> best;
     best[1].plateau = true;
     // Noise as high as the last band, or none.
     const double last = s.psd.back() / *std::ranges::max_element(s.psd);
-    for (double h = -0.2; h < 1.45; h += 0.2)
-        for (int l = 0; l < kls; ++l)
-            for (int r = 0; r <= kss; ++r) {
-                const double kl = low + (high - low) * 0.8 * l / kls,
-                             ks = r == kss ? high + 5 : high - (high - low) * 0.8 * r / kss;
-                if (!(ks > kl + 0.5)) continue;
+    std::vector<double> e(s.psd.size());
+    for (double h = -0.2; h < 1.45; h += 0.2) {
+        const auto first = parts_beyond(kl, s.wavenumber, h),
+                   beyond = parts_beyond(ks, s.wavenumber, h);
+        for (const auto l : indices(kl))
+            for (const auto r : indices(ks)) {
+                if (!(std::log(ks[r] / kl[l]) > 0.5)) continue;
                 for (const bool plateau : {false, true}) {
-                    Model m{{h, kl, ks, 0}, plateau};
-                    const std::vector<double> e = likelihood.expected(m.x, plateau, true);
+                    for (const auto i : indices(e)) {
+                        const double x = s.wavenumber[i] / kl[l];
+                        e[i] = std::pow(x, -1 - 2 * h) * (first[l][i] - beyond[r][i]) +
+                               (plateau && x < 1 ? 2 * std::sqrt(1 - x * x) : 0.0);
+                    }
                     const double top = *std::ranges::max_element(e);
                     for (const double noise : {1e-9 * top, last * top}) {
+                        Model m{{h, std::log(kl[l]), std::log(ks[r]), std::log(noise)}, plateau};
                         std::tie(m.misfit, m.scale) = likelihood.misfit(e, noise);
-                        m.x[log_noise] = std::log(noise);
                         if (m.misfit < best[plateau].misfit) best[plateau] = m;
                     }
                 }
             }
+    }
     return best;
 }
 
@@ -368,9 +384,10 @@ ProfileFit fit_profile(const ProfileSpectrum& spectrum) {
     if (!s.ks_seen) band[log_ks] = std::log(spectrum.highest);
     const auto fitted = [&](Parameter parameter, bool is_seen) {
         const double value = std::exp(band[std::size_t(parameter)]);
-        // An end is not known better than the modes are apart.
-        return Fitted{
-            value, is_seen ? std::max(value * kNinety * errors.of(parameter), spectrum.step) : 0.0};
+        // An end is not known better than half the main lobe of a Hann window.
+        constexpr double lobe = 2;  // modes
+        const double error = value * kNinety * errors.of(parameter);
+        return Fitted{value, is_seen ? std::max(error, lobe * spectrum.step) : 0.0};
     };
     s.kl = fitted(log_kl, s.kl_seen);
     s.ks = fitted(log_ks, s.ks_seen);

@@ -43,6 +43,11 @@ TEST(texts_of_styluses) {
     // Units in the line above the columns, after lines of text with numbers among them.
     check(read("Stylus Force,3\r\nScan Length,2000\r\nLateral (um),Total Profile (nm)\r\n" +
                pairs(",", 1, 1e3)));
+    // Empty columns, and x rounded to less than the step.
+    check(read("Lateral um,Raw Micrometer,\n" + rows([](int i) {
+                   return number(0.5 * i + (i % 3 == 2 ? 0.1 : 0.0)) + "," + number(0.01 * i) +
+                          ",,";
+               })));
     check(read("Messdaten\n[um]\t[mm]\n" + pairs("\t", 1, 1e-3)));
     check(read("# x [mm], z [um]\n" + pairs(" ", 1e-3, 1), {.coordinate_unit = "mm"}));
     check(read(pairs(";", 1, 1)));

@@ -185,11 +185,8 @@ TEST(way_back_from_profiles_of_surfaces) {
             const auto& [value, fitted] = all[k];
             inside[k] += std::abs(fitted.value - value) <= fitted.error;
             mean[k] += fitted.value / value / surfaces;
-            std::printf("%d %d: %g +- %g (%g)\n", seed, k, fitted.value / value,
-                        fitted.error / value, 0.0);
         }
     }
-    for (const int k : indices(4)) std::printf("%d inside %d mean %g\n", k, inside[k], mean[k]);
     // 18 of 20 are expected; 14 or fewer would be met once in 90 times.
     for (const int k : indices(4)) {
         CHECK(inside[k] >= 15);
