@@ -119,8 +119,13 @@ def maps(results, options):
     spots of asperities, and means over realizations in the cells of the map. Dashed: the contact of
     the smooth indenter under the same force."""
     # Means over pairs of flats are the same everywhere but for the noise of few surfaces.
+    # Profiles are constant along y: the picture profile shows their contact.
     results = [
-        r for r in results if "map_pressure" in r and not ("pressure" in r and r.realizations > 1)
+        r
+        for r in results
+        if "map_pressure" in r
+        and "profile" not in r
+        and not ("pressure" in r and r.realizations > 1)
     ]
     panels, common = shown(results, options)
     if not panels:

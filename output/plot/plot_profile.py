@@ -5,6 +5,7 @@ import numpy as np
 
 from plot_curves import title
 from plot_results import names
+from plot_spots import ELASTIC, drawn_level, height_names
 from plot_style import Page, STYLES, amount, label
 
 
@@ -14,13 +15,16 @@ def profile(results, options):
     first = next((r for r in results if "profile_psd" in r), None)
     if first is None:
         return None
-    page = Page(options, 4, aspect=0.8)
-    for axis, draw in zip(page.axes, (_trace, _treated, _spectrum, _amplitudes)):
-        draw(page, axis, first, [r for r in results if r is not first])
+    page = Page(options, 4, aspect=0.72, columns=2)
+    others = [r for r in results if r is not first]
+    _trace(page, page.axes[0], first)
+    _treated(page, page.axes[1], first, options.step)
+    _spectrum(page, page.axes[2], first, others)
+    _amplitudes(page.axes[3], first)
     return page.finish(first.title if len(results) == 1 else title(results, "Profile"))
 
 
-def _trace(page, axis, result, _):
+def _trace(page, axis, result):
     x, z = result["trace_x"], result["trace"]
     axis.plot(x, z, color=STYLES[0][2], lw=0.6)
     axis.plot(x, result["trace_form"], color=STYLES[1][2])
@@ -31,7 +35,8 @@ def _trace(page, axis, result, _):
     label(axis, "y", "$z$", result.dimension("trace"))
 
 
-def _treated(page, axis, result, _):
+def _treated(page, axis, result, step):
+    """What is left of the trace, and where it touches at a level."""
     x, length = result["profile_x"], result.dimension("profile")
     axis.plot(x, result["profile"], color=STYLES[2][2], lw=0.6)
     cutoffs = [float(result[name]) for name in ("filter_cutoff", "cutoff_long")]
@@ -42,6 +47,13 @@ def _treated(page, axis, result, _):
     )
     axis.set_title(words or "without form, no filter")
     page.entry("without form, filtered" if words else "without form", color=STYLES[2][2])
+    level = drawn_level(result, step)
+    pixels = result.pixels(level)
+    if pixels:
+        mask = pixels[0][0] > 0
+        touching = np.interp(result["mask_x"][mask], x, result["profile"])
+        axis.plot(result["mask_x"][mask], touching, ".", color=ELASTIC, ms=2, zorder=3)
+        page.entry(f"contact at {result.level_name(level)}", color=ELASTIC, marker=".", ls="none")
     axis.set_xlim(result["trace_x"][[0, -1]])
     label(axis, "x", "$x$", result.dimension("profile_x"))
     label(axis, "y", "$z$", length)
@@ -60,7 +72,7 @@ def _spectrum(page, axis, result, others):
             color=STYLES[1][2],
         )
     for k, (other, name) in enumerate(zip(others, names([result] + others)[1:]), 3):
-        if "heights" not in other:
+        if "height" not in other or "profile" in other:
             continue
         wave, power = profile_spectrum_of(other)
         axis.plot(wave, power, color=STYLES[k % len(STYLES)][2], lw=0.8)
@@ -73,8 +85,8 @@ def _spectrum(page, axis, result, others):
 
 def profile_spectrum_of(result):
     """Mean density C1 of the rows of a periodic surface, in bands of some 8 %."""
-    z = np.asarray(result["heights"], float)
-    x = result["x"]
+    _, x, _ = height_names(result)
+    z, x = np.asarray(result["height"], float), result[x]
     n, step = z.shape[1], 2 * np.pi / (z.shape[1] * (x[1] - x[0]))
     power = (np.abs(np.fft.rfft(z - z.mean(), axis=1)) ** 2).mean(axis=0) / n**2 / step
     bands = np.unique(np.round(1.08 ** np.arange(0, np.log(n / 2) / np.log(1.08))).astype(int))
@@ -84,7 +96,7 @@ def profile_spectrum_of(result):
     return np.array(middle) * step, np.array(means)
 
 
-def _amplitudes(page, axis, result, _):
+def _amplitudes(axis, result):
     """Material ratio: the share of the length where the profile is higher."""
     z = np.sort(result["profile"])[::-1]
     share = 100 * (np.arange(z.size) + 0.5) / z.size

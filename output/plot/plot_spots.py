@@ -20,6 +20,8 @@ FLAGS = [
 def height_names(result):
     """The variables of the heights and their points: the whole surface, or the window of
     fields = 'heights'; None if the file has neither."""
+    if "profile" in result:  # constant along y
+        return None
     if "height" in result:
         return "height", *(("height_x", "height_y") if "height_x" in result else ("x", "y"))
     return ("field_height", "field_x", "field_y") if "field_height" in result else None
@@ -230,7 +232,9 @@ def drawn_level(result, step):
 def spots(results, options):
     """The contact of a level over the heights: all of it, and around the largest spot."""
     result = results[0]
-    if len(results) > 1 or "contact_count" not in result or not (result["contact_count"] > 0).any():
+    if len(results) > 1 or "contact_count" not in result or "profile" in result:
+        return None
+    if not (result["contact_count"] > 0).any():
         return None
     step = drawn_level(result, options.step)
     found = spots_of(result, step)

@@ -89,7 +89,7 @@ def _spectrum(page, axis, _, results):
         good = (q > 0) & (psd > 0)
         axis.plot(q[good], psd[good], marker, ms=2, mew=0.5, mfc="none", color=colour)
         page.entry(
-            "measured" if len(results) == 1 else name,
+            name if len(results) > 1 else "from the profile" if "profile" in result else "measured",
             color=colour,
             marker=marker,
             ls="none",

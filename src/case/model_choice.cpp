@@ -39,8 +39,8 @@ const char* why_asperities(const Case& c) {
 
 namespace {
 
-// Sampling lengths of ISO 4288 (1996) up to this Ra, and the short cutoff that goes with them by ISO
-// 3274 (1996): a drawing's Ra is that of the waves between the two. [m]
+// Sampling lengths of ISO 4288 (1996) up to this Ra, and the short cutoff that goes with them by
+// ISO 3274 (1996): a drawing's Ra is that of the waves between the two. [m]
 struct MeasuredBand {
     double ra, longest, shortest;
 };

@@ -77,9 +77,9 @@ double spread_of_far_images(double x, double y, double L, int exact, double acro
     return sum * across * along;
 }
 
-// pi E* times the deflection at a distance across from a strip of width 2 h under unit pressure that
-// is endless along the axis, 0 at the distance D from a narrow one: the sum of all images of a pixel
-// as long as the period.
+// pi E* times the deflection at a distance across from a strip of width 2 h under unit pressure
+// that is endless along the axis, 0 at the distance D from a narrow one: the sum of all images of a
+// pixel as long as the period.
 double strip(double x, double h, double D) {
     if (x == 0) return 4 * h * (1 - std::log(h / D));
     return 4 * h - 4 * x * std::atanh(h / x) - 2 * h * std::log((x - h) * (x + h) / (D * D));
@@ -98,8 +98,8 @@ std::vector<double> line_deflections(const Substrate& substrate, const Period& p
     std::vector<double> coefficient(at(width) * half);
     if (along == 1) {
         for (const int i : indices(width))
-            coefficient[at(i)] = substrate.near() * (strip(i * across_step, 0.5 * across_step, D) +
-                                                     area * raised);
+            coefficient[at(i)] =
+                substrate.near() * (strip(i * across_step, 0.5 * across_step, D) + area * raised);
         return coefficient;
     }
     const LineKernel kernel(L, D);

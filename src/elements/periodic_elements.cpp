@@ -71,8 +71,9 @@ PeriodicElements::PeriodicElements(const Relief& relief, const Substrate& substr
 PeriodicElements::PeriodicElements(const PeriodicElements& finer,
                                    const std::vector<double>& heights)
     : BoundedSolver(finer.highest_, {kSteps, kReduction, kQuick, true}),
-      relief_{finer.relief_.nx / 2, (finer.relief_.ny + 1) / 2, 2 * finer.relief_.dx,
-              2 * finer.relief_.dy, heights.data(),             finer.relief_.nx / 2},
+      relief_{finer.relief_.nx / 2, (finer.relief_.ny + 1) / 2,
+              2 * finer.relief_.dx, 2 * finer.relief_.dy,
+              heights.data(),       finer.relief_.nx / 2},
       substrate_(finer.substrate_),
       hardness_(finer.hardness_),
       unit_(2 * finer.unit_),

@@ -40,8 +40,8 @@ std::function<double(double)> with_diagonal(const std::function<double(double)>&
                                             double diagonal);
 
 // Preconditioner: K^-1 of PeriodicPixels with dx = 1, of modes |k|/2/(1 + share), between pixels at
-// most six apart, along a single row 15; positive semidefinite. Pixels of a surface of one row, which is constant along y,
-// have the aspect kEndless: its waves run along x.
+// most six apart, along a single row 15; positive semidefinite. Pixels of a surface of one row,
+// which is constant along y, have the aspect kEndless: its waves run along x.
 inline constexpr double kEndless = 1e6;
 PixelStencil inverse_stencil(double aspect, const std::function<double(double)>& share = {});
 

@@ -109,8 +109,8 @@ TextTable two_columns(const std::string& path, const TextTable& all, const std::
     return two;
 }
 
-// The heights of x z pairs: as they follow each other, with x rounded to any digit, or at the places
-// of x on a uniform grid, in any order and with places left out.
+// The heights of x z pairs: as they follow each other, with x rounded to any digit, or at the
+// places of x on a uniform grid, in any order and with places left out.
 HeightMap place_pairs(const std::string& path, const TextTable& table) {
     std::vector<double> x;
     std::vector<double> z;

@@ -92,8 +92,9 @@ HeightMap read_heights(const std::string& path, std::optional<double> L,
 //
 // NetCDF: the variable `height`, dimension (x), or the only one of one dimension that is no
 // coordinate; .sdf with NumProfiles = 1; .smd of ISO 5436-2; text: two columns x z or one of
-// heights (read_profile_table()), or more, x in the first and z in that of the number `channel`, with the units of their headings or of `keys`. Without x, `keys`
-// give the pixel, or L does. At least 16 points; otherwise as read_heights().
+// heights (read_profile_table()), or more, x in the first and z in that of the number `channel`,
+// with the units of their headings or of `keys`. Without x, `keys` give the pixel, or L does. At
+// least 16 points; otherwise as read_heights().
 HeightMap read_profile(const std::string& path, std::optional<double> L,
                        const std::string& length_unit, const std::string& channel, Missing missing,
                        const MapKeys& keys, double thickness, MapOrigin* origin = nullptr);

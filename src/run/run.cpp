@@ -149,6 +149,12 @@ Case::Surface for_second_body(const Case::Surface& keys, const Case::IndenterKey
     return kept;
 }
 
+void scale_levels(Case::Indentation& keys, double factor) {
+    keys.start *= factor;
+    keys.stop *= factor;
+    for (double& level : keys.levels) level *= factor;
+}
+
 // Surfaces as long as the profile would have too many waves.
 double length_of_twins(const Measured& m) {
     constexpr double most = 1024;  // of the shortest waves
@@ -160,11 +166,6 @@ double length_of_twins(const Measured& m) {
 std::string twins_text(const Job& job, const std::string& result) {
     const Measured& m = *job.measured;
     Case twins = job.settings;
-    const auto scale_levels = [&keys = twins.indentation](double factor) {
-        keys.start *= factor;
-        keys.stop *= factor;
-        for (double& level : keys.levels) level *= factor;
-    };
     const double L = m.profile ? length_of_twins(m) : std::max(m.Lx(), m.Ly());
     twins.run.title = "Surfaces with the spectrum of " +
                       std::filesystem::path(job.settings.surface.file).filename().string();
@@ -184,24 +185,24 @@ std::string twins_text(const Job& job, const std::string& result) {
         twins.surface.direction = keys.direction;
         // The forces of a length of the profile become those of the length of the twins.
         if (job.indenter.period.line() && twins.indentation.control == Control::force)
-            scale_levels(L / m.Ly());
+            scale_levels(twins.indentation, L / m.Ly());
     }
     twins.surface.twins = m.isotropy < kIsotropic ? Twins::directional : Twins::radial;
     twins.surface.twin_heights = m.gaussian() ? TwinHeights::gaussian : TwinHeights::measured;
-    twins.surface.sigma = m.parameters.sq;
-    // The rms height of the map is that of one sample; that of the twins scatters likewise.
+    // That of one sample, about which those of twins scatter; of a profile that of the spectrum.
+    twins.surface.sigma = m.profile ? std::optional<double>() : m.parameters.sq;
     twins.surface.normalise = Normalise::ensemble;
     if (keys.sigma && twins.indentation.control == Control::separation &&
         twins.indentation.unit == LevelUnit::sigma) {
         // For the map sigma was a unit of length; for twins it is the rms height.
         twins.indentation.unit = LevelUnit::length;
-        scale_levels(job.sigma);
+        scale_levels(twins.indentation, job.sigma);
     }
     if (job.indenter.period.finite() &&
         twins.indentation.control == Control::force) {  // the area of the twins may be another
         twins.indentation.control = Control::pressure;
         twins.indentation.unit = LevelUnit::pressure;
-        scale_levels(1 / job.indenter.period.area());
+        scale_levels(twins.indentation, 1 / job.indenter.period.area());
     }
     // The square begins at 0 and has the longer side of the map; the tip keeps its distance from
     // the middle.

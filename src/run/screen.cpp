@@ -109,6 +109,17 @@ void print_unlikely_units(std::ostream& out, const Job& job) {
             2 * a, l, L, l);
 }
 
+static void print_finish(std::ostream& out, const Case& settings) {
+    const auto made = finished_surface(settings);
+    if (!made) return;
+    const char* const l = settings.run.length_unit.c_str();
+    out << format(
+        "warning: surface%%finish = '%s' is an assumption: rms height %.4g %s, hurst %.3g, waves "
+        "from %.4g to %.4g %s (%s)\n",
+        kFinishNames[std::size_t(settings.surface.finish)], made->sigma, l, made->hurst,
+        made->longest, made->shortest, l, made->sources.c_str());
+}
+
 // The title, the bodies, and the theoretical properties of the surface.
 void print_case(std::ostream& out, const Job& job) {
     const auto& run = job.settings.run;
@@ -154,12 +165,7 @@ void print_case(std::ostream& out, const Job& job) {
                 "(elements%%points_per_wave)\n",
                 job.settings.surface.n, n, n);
     }
-    if (const auto made = finished_surface(job.settings))
-        out << format(
-            "warning: surface%%finish = '%s' is an assumption: rms height %.4g %s, hurst %.3g, "
-            "waves from %.4g to %.4g %s (%s)\n",
-            kFinishNames[std::size_t(job.settings.surface.finish)], made->sigma, l, made->hurst,
-            made->longest, made->shortest, l, made->sources.c_str());
+    print_finish(out, job.settings);
     if (job.theory) {
         const Moments& m = *job.theory;
         out << format(

@@ -88,8 +88,8 @@ std::array<double, kUnknowns> fit(const HeightMap& map, const Frame& frame, cons
     return all.solve(form);
 }
 
-// Subtracts `level` and a polynomial of first degree (3 unknowns) or second degree (6), of a profile
-// 2 or 3. The second round removes rounding errors of large forms.
+// Subtracts `level` and a polynomial of first degree (3 unknowns) or second degree (6), of a
+// profile 2 or 3. The second round removes rounding errors of large forms.
 template <int kUnknowns>
 std::array<double, 6> subtract_polynomial(HeightMap& map, const Frame& frame, const char* form,
                                           double level) {

@@ -170,6 +170,21 @@ void measure_profile(const HeightMap& map, const MeasureOptions& options, Measur
     }
 }
 
+std::shared_ptr<MeasuredProfile> trace_of(const HeightMap& map) {
+    if (map.ny > 1) return nullptr;
+    auto profile = std::make_shared<MeasuredProfile>();
+    profile->trace.assign(map.row(0), map.row(0) + map.nx);
+    profile->trace_x0 = map.x0;
+    return profile;
+}
+
+void filter_profile(HeightMap& map, double cutoff_long, Measured& m) {
+    remove_long_waves(map, cutoff_long);
+    cut_ends(map, static_cast<int>(std::ceil(0.5 * cutoff_long / map.dx)), m.filled);
+    static_cast<PointGrid&>(m) = map;
+    m.filtered = roughness(map);
+}
+
 }  // namespace
 
 Measured measure(HeightMap& map, const MeasureOptions& options) {
@@ -192,12 +207,7 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     m.missing_share = static_cast<double>(m.missing) / points;
     if (!(options.filter_cutoff > 0)) m.height_step = height_step(map);
     m.as_read = roughness(map);
-    std::shared_ptr<MeasuredProfile> profile;
-    if (map.ny == 1) {
-        profile = std::make_shared<MeasuredProfile>();
-        profile->trace.assign(map.row(0), map.row(0) + map.nx);
-        profile->trace_x0 = map.x0;
-    }
+    const std::shared_ptr<MeasuredProfile> profile = trace_of(map);
     m.form = detrend(map, options.detrend);
     for (int i = 0; profile && i < map.nx; ++i)
         profile->form.push_back(profile->trace[std::size_t(i)] - map(i, 0));
@@ -218,12 +228,7 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
             bad_input(format("surface%%filter_cutoff = %g removes all heights of a map of %g x %g",
                              options.filter_cutoff, map.Lx(), map.Ly()));
     }
-    if (profile && options.cutoff_long > 0) {
-        remove_long_waves(map, options.cutoff_long);
-        cut_ends(map, static_cast<int>(std::ceil(0.5 * options.cutoff_long / map.dx)), m.filled);
-        static_cast<PointGrid&>(m) = map;
-        m.filtered = roughness(map);
-    }
+    if (profile && options.cutoff_long > 0) filter_profile(map, options.cutoff_long, m);
     m.breaks = find_breaks(map, m.height_step);
     m.parameters = height_parameters(map);
     m.moments = grid_moments(map);
@@ -233,7 +238,7 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     count_heights(map, m);
     if (profile) {
         measure_profile(map, options, *profile, m);
-        m.profile = std::move(profile);
+        m.profile = profile;
     } else {
         measure_and_fit(map, slopes, m);
     }

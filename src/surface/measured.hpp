@@ -73,9 +73,9 @@ inline constexpr double kFewPointsPerWave = 4;
 
 // Subtracts the fitted form, fills missing points (fill_missing) and filters, in place. Throws
 // Error(bad_input) if all points are missing, or if any is missing with Missing::refuse (the
-// message states the first). A map of one row is a profile: its `spectrum` and `fit` are those of the
-// surface that has such profiles, whose wavenumbers are stretched by the assumed lay. Its long-wave
-// filter cuts off its ends.
+// message states the first). A map of one row is a profile: its `spectrum` and `fit` are those of
+// the surface that has such profiles, whose wavenumbers are stretched by the assumed lay. Its
+// long-wave filter cuts off its ends.
 Measured measure(HeightMap& map, const MeasureOptions& options);
 
 // Processing and properties of a map as lines of text; lengths are followed by `length_unit`.

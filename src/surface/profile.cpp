@@ -136,8 +136,8 @@ std::vector<double> isotropic_spectrum(const std::vector<double>& wavenumber,
                 std::log(c1[a + 1] / c1[a]) / std::log(wavenumber[a + 1] / wavenumber[a]);
             if (last && !(slope < 0)) continue;
             const double from = wavenumber[i], to = last ? beyond * from : wavenumber[i + 1];
-            // C1' dq/sqrt(q^2 - k^2) = slope C1(from)/from^2 (q/from)^(slope - 2) dt with q^2 = k^2 +
-            // t^2, without a singularity; several pieces where the power law falls far.
+            // C1' dq/sqrt(q^2 - k^2) = slope C1(from)/from^2 (q/from)^(slope - 2) dt with q^2 = k^2
+            // + t^2, without a singularity; several pieces where the power law falls far.
             const double t0 = std::sqrt(std::max(from * from - k * k, 0.0)),
                          t1 = std::sqrt(to * to - k * k);
             const int pieces = last ? 40 : 1;

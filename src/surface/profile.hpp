@@ -19,9 +19,9 @@ struct ProfileParameters {
 };
 ProfileParameters profile_parameters(const HeightMap& profile, double cutoff_long);
 
-// Long-wave cutoff lambda_c of ISO 16610-21: subtracts the Gaussian mean line. Half a cutoff at each
-// end, where the filter reaches beyond the profile, is cut off. Throws Error(bad_input) if fewer
-// than 16 points remain.
+// Long-wave cutoff lambda_c of ISO 16610-21: subtracts the Gaussian mean line. Half a cutoff at
+// each end, where the filter reaches beyond the profile, is cut off. Throws Error(bad_input) if
+// fewer than 16 points remain.
 void remove_long_waves(HeightMap& profile, double cutoff);
 
 // Cuts `points` points off either end, also of a mask of them.

@@ -329,6 +329,34 @@ private:
     double excess_ = 1;
 };
 
+// Profiles without short waves have rounding errors there, of which noise could not be told.
+ProfileSpectrum with_rounding(ProfileSpectrum spectrum) {
+    constexpr double rounding = 1e-12;
+    const double highest = *std::ranges::max_element(spectrum.psd);
+    for (double& p : spectrum.psd) p = std::max(p, rounding * highest);
+    return spectrum;
+}
+
+// Sets rms height and slope of the fitted band, whose ends are those of `band` where they are not
+// seen.
+void rms_of_band(const Model& best, const Point& band, const Errors& errors, ProfileFit& fit) {
+    const SelfAffineFit& s = fit.surface;
+    const auto square = [&](const Point& x, bool slope) {
+        Point limits = x;
+        if (!s.kl_seen) limits[log_kl] = band[log_kl];
+        if (!s.ks_seen) limits[log_ks] = band[log_ks];
+        // Phi0 kl belongs to the fitted kl.
+        const double moved = std::pow(std::exp(limits[log_kl] - x[log_kl]), -1 - 2 * x[hurst]);
+        const auto [m0, m2] = moments(limits, s.plateau);
+        return moved * (slope ? m2 : m0);
+    };
+    for (const bool slope : {false, true}) {
+        const double value = std::sqrt(std::exp(best.scale) * square(best.x, slope));
+        const double error = errors.of_root([&](const Point& x) { return square(x, slope); });
+        (slope ? fit.slope : fit.sigma) = {value, value * kNinety * error};
+    }
+}
+
 }  // namespace
 
 double profile_of_self_affine(const SelfAffineFit& s, double q) {
@@ -345,11 +373,7 @@ ProfileFit fit_profile(const ProfileSpectrum& spectrum) {
     if (!can_fit(spectrum))
         bad_input("the profile is too short for a spectrum: it has ", spectrum.psd.size(),
                   " bands of waves");
-    // Profiles without short waves have rounding errors there, of which noise could not be told.
-    constexpr double rounding = 1e-12;
-    ProfileSpectrum rounded = spectrum;
-    const double highest = *std::ranges::max_element(spectrum.psd);
-    for (double& p : rounded.psd) p = std::max(p, rounding * highest);
+    const ProfileSpectrum rounded = with_rounding(spectrum);
     const Likelihood likelihood(rounded);
     std::array<bool, kParameters> held{};
     std::array<Model, 2> models = best_of_grid(likelihood);
@@ -396,20 +420,7 @@ ProfileFit fit_profile(const ProfileSpectrum& spectrum) {
     s.Phi0 = {phi0, phi0 * kNinety * errors.of({1, 0, -1, 0, 0})};
     const double noise = scale * std::exp(best.x[log_noise]);
     fit.noise = noise > 0.1 * *std::ranges::min_element(spectrum.psd) ? noise : 0.0;
-    const auto of_band = [&](const Point& x, bool slope) {
-        Point limits = x;
-        if (!s.kl_seen) limits[log_kl] = band[log_kl];
-        if (!s.ks_seen) limits[log_ks] = band[log_ks];
-        // Phi0 kl belongs to the fitted kl.
-        const double moved = std::pow(std::exp(limits[log_kl] - x[log_kl]), -1 - 2 * x[hurst]);
-        const auto [m0, m2] = moments(limits, s.plateau);
-        return moved * (slope ? m2 : m0);
-    };
-    for (const bool slope : {false, true}) {
-        const double value = std::sqrt(scale * of_band(best.x, slope)),
-                     error = errors.of_root([&](const Point&x) { return of_band(x, slope); });
-        (slope ? fit.slope : fit.sigma) = {value, value * kNinety * error};
-    }
+    rms_of_band(best, band, errors, fit);
     return fit;
 }
 

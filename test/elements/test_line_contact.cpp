@@ -150,9 +150,9 @@ TEST(one_row_is_a_surface_constant_along_the_axis) {
 }
 
 TEST(westergaard_wave) {
-    // z = Delta cos(2 pi x/lambda) on a flat, with the mean pressure p: A/A0 = (2/pi) asin sqrt(p/p*)
-    // and the largest pressure 2 sqrt(p p*), p* = pi E* Delta/lambda (Johnson 1985, section 13.2).
-    // An edge is known to half a pixel, the pressure to second order in the pixels.
+    // z = Delta cos(2 pi x/lambda) on a flat, with the mean pressure p: A/A0 = (2/pi) asin
+    // sqrt(p/p*) and the largest pressure 2 sqrt(p p*), p* = pi E* Delta/lambda (Johnson 1985,
+    // section 13.2). An edge is known to half a pixel, the pressure to second order in the pixels.
     const double E = 100, lambda = 1, Delta = 1e-3, full = pi * E * Delta / lambda;
     for (const int n : {512, 1024, 2048, 16384}) {
         HeightMap row = map_of(n, 1, lambda / n, [&](double x, double) {

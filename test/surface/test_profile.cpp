@@ -19,7 +19,8 @@ HeightMap line_of(int n, double step, Height height) {
 }
 
 TEST(parameters_of_a_sine) {
-    // 20 whole waves of amplitude A: Ra = 2A/pi, Rq = A/sqrt 2, Rz = 2A, Rku = 3/2, Rdq = k A/sqrt 2.
+    // 20 whole waves of amplitude A: Ra = 2A/pi, Rq = A/sqrt 2, Rz = 2A, Rku = 3/2, Rdq = k A/sqrt
+    // 2.
     const double A = 0.4, k = 2 * pi / 0.25;
     const int n = 4000;
     const HeightMap line = line_of(n, 5.0 / n, [&](double x) { return 7 + A * std::sin(k * x); });
