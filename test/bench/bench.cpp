@@ -142,7 +142,7 @@ struct Part {
 const Part kParts[] = {
     {"realization", bench_realization}, {"solve", bench_solve},
     {"adhesion", bench_adhesion},       {"calls", bench::calls},
-    {"elements", bench::elements},      {"element_flats", bench::element_flats, true},
+    {"elements", bench::elements},      {"flats", bench::flats, true},
     {"scaling", bench::scaling, true},
 };
 

@@ -47,7 +47,7 @@ inline const rsc::Indenter kGold{78.0e3 / (1 - 0.42 * 0.42), 2.5, 0.5, 0.5};
 void scaling();
 // bench_elements.cpp
 void elements();
-void element_flats();
+void flats();
 // bench_calls.cpp
 void calls();
 

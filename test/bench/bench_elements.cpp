@@ -1,5 +1,8 @@
 // What elements cost: a level cold, a series of levels, between flats.
 #include "bench.hpp"
+
+#include <fftw3.h>
+
 #include "contact/make.hpp"
 #include "surface/synthesis.hpp"
 
@@ -33,6 +36,27 @@ void print_cold(const char* what, const HeightMap& map, double wanted) {
         level.residual, !level.converged ? ", NOT CONVERGED" : "", time, wanted);
 }
 
+// A transform of n x n numbers in single precision and back.
+double bare_pair(int n) {
+    std::vector<float> data(at(n) * (at(n) + 2));
+    auto* const modes = reinterpret_cast<fftwf_complex*>(data.data());
+    const fftwf_plan there = fftwf_plan_dft_r2c_2d(n, n, data.data(), modes, FFTW_ESTIMATE),
+                     back = fftwf_plan_dft_c2r_2d(n, n, modes, data.data(), FFTW_ESTIMATE);
+    const double time = shortest(3, [&] {
+        fftwf_execute(there);
+        fftwf_execute(back);
+    });
+    fftwf_destroy_plan(there);
+    fftwf_destroy_plan(back);
+    return time;
+}
+
+long page_faults() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_minflt;
+}
+
 }  // namespace
 
 void elements() {
@@ -56,30 +80,35 @@ void elements() {
     std::printf("  peak memory so far %.0f MB (wanted: 1000)\n", peak_memory_mb());
 }
 
-void element_flats() {
+// Levels from nothing against bare transforms: products and rounds must not grow with the grid.
+void flats() {
     std::printf(
-        "\nelement_flats: two flats, L/lambda_l = 8, 8 points in the shortest wave, tolerance "
-        "1e-6, one thread\n");
-    for (const int n : {1024, 2048, 4096}) {
-        Spectrum spectrum{.L_lambda_l = 8, .L_lambda_s = n / 8.0};
-        const HeightMap map = synthesize(spectrum, n, Normalise::sample, 1, 1);
-        const Indenter flat{kGold.E_star, HUGE_VAL, 0, 0, {map.Lx(), map.Ly()}};
-        const auto contact = make_element_contact(map, flat, options());
-        const double highest = 0.02 * kGold.E_star * theoretical_moments(spectrum).rms_slope();
-        Level level;
-        const double one = shortest(n < 4096 ? 3 : 1, [&] { level = contact->at_force(highest); });
-        const double stiffness = shortest(1, [&] { contact->stiffness(); });
-        std::printf(
-            "  %d^2: p/(E* h') = 0.02: %zu pixels, %d rounds, %.2f s (wanted at 4096^2, with the "
-            "stiffness: 6), stiffness %.2f s\n",
-            n, level.pixels.index.size(), level.iterations, one, stiffness);
-        if (n < 4096) continue;
-        const double series = shortest(1, [&] {
-            for (int k = 0; k < 30; ++k)
-                contact->at_force(highest * std::pow(40.0, (k - 29) / 29.0));
-        });
-        std::printf("  30 pressures from 0.0005 to 0.02: %.1f s (wanted: 60)\n", series);
+        "\nflats: L/lambda_l = 4, 8 points in the shortest wave, tolerance 1e-6, cold, one thread "
+        "(processor time / products times a bare pair of transforms)\n");
+    for (const int n : {512, 1024, 2048, 4096}) {
+        const double pair = bare_pair(n);
+        std::printf("  %d^2: bare pair in single precision %.1f ms\n", n, 1e3 * pair);
+        for (const int seed : {1, 2, 3}) {
+            Spectrum spectrum{.L_lambda_l = 4, .L_lambda_s = n / 8.0};
+            const HeightMap map = synthesize(spectrum, n, Normalise::sample, seed, 1);
+            const Indenter flat{kGold.E_star, HUGE_VAL, 0, 0, {map.Lx(), map.Ly()}};
+            const auto contact = make_element_contact(map, flat, options());
+            const double unit = kGold.E_star * theoretical_moments(spectrum).rms_slope();
+            for (const double pressure : {0.02, 0.1, 0.3}) {
+                Level level;
+                const long before = page_faults();
+                const double time =
+                    shortest(1, [&] { level = contact->at_force(pressure * unit); });
+                std::printf(
+                    "    seed %d, p/(E* h') = %.2f: A/A0 = %.3f, %d rounds, %ld products, %.2f s, "
+                    "ratio %.2f, %ld page faults%s\n",
+                    seed, pressure, level.area_fraction, level.iterations, long(level.products),
+                    time, time / (double(level.products) * pair), page_faults() - before,
+                    level.converged ? "" : ", NOT CONVERGED");
+            }
+        }
     }
+    std::printf("  peak memory %.0f MB\n", peak_memory_mb());
 }
 
 }  // namespace bench
