@@ -1,77 +1,67 @@
 #include "physics/flow/openings.hpp"
 
-#include "base/parallel.hpp"
-
 namespace rsc {
 
-// Rows are linked in bands that share no points, then the bands with each other.
-
-Openings::Openings(const GapMap& map, const Linked& open)
-    : node_(map.points()), winds_(map.points(), 0) {
-    constexpr int kBand = 64;
-    const auto nx = at(map.nx);
-    const int bands = (map.ny + kBand - 1) / kBand;
-    std::vector<std::uint8_t> winding(at(bands), 0);
-    const auto link_above = [&](std::size_t k) -> std::uint8_t {
-        const std::size_t above = map.above(k);
-        return open(k, above) ? link(k, above, 0, above <= k ? 1 : 0) : 0;
-    };
-    parallel_for(bands, 1, 0, [&](int band) {
-        const std::size_t first = at(band) * kBand * nx,
-                          end = std::min(first + kBand * nx, node_.size());
-        std::uint8_t& all = winding[at(band)];
-        for (std::size_t k = first; k < end; ++k) node_[k].parent = std::uint32_t(k);
-        for (std::size_t k = first; k < end; ++k) {
-            const std::size_t right = map.right_of(k);
-            if (open(k, right)) all |= link(k, right, right <= k ? 1 : 0, 0);
-            if (k + nx < end) all |= link_above(k);
-        }
-    });
-    for (const std::uint8_t ways : winding) all_ |= ways;
-    for (const int band : indices(bands)) {
-        const std::size_t end = std::min(at(band + 1) * kBand * nx, node_.size());
-        for (std::size_t k = end - nx; k < end; ++k) all_ |= link_above(k);
-    }
-}
-
-std::size_t Openings::root(std::size_t k) {
-    // The first pass adds up the periods from k to the root, the second refers every point on the
-    // way to the root directly.
-    std::size_t top = k;
+std::size_t Openings::root_of_run(std::size_t r) {
+    // The first pass adds up the periods from r to the root, the second refers every run on the way
+    // to the root directly.
+    std::size_t top = r;
     std::int32_t x = 0, y = 0;
-    while (node_[top].parent != top) {
-        x += node_[top].x;
-        y += node_[top].y;
-        top = node_[top].parent;
+    while (run_[top].parent != top) {
+        x += run_[top].x;
+        y += run_[top].y;
+        top = run_[top].parent;
     }
-    while (node_[k].parent != top && k != top) {
-        Node& node = node_[k];
-        const std::size_t next = node.parent;
-        const std::int32_t step_x = node.x, step_y = node.y;
-        node = {std::uint32_t(top), x, y};
+    while (run_[r].parent != top && r != top) {
+        Run& run = run_[r];
+        const std::size_t next = run.parent;
+        const std::int32_t step_x = run.x, step_y = run.y;
+        run.parent = std::uint32_t(top);
+        run.x = x;
+        run.y = y;
         x -= step_x;
         y -= step_y;
-        k = next;
+        r = next;
     }
     return top;
 }
 
-// The point l lies `period_x`, `period_y` periods beyond its place in the cell if it is reached
-// from k.
-std::uint8_t Openings::link(std::size_t k, std::size_t l, int period_x, int period_y) {
-    const std::size_t a = root(k), b = root(l);
-    const std::int32_t x = (a == k ? 0 : node_[k].x) + period_x - (b == l ? 0 : node_[l].x);
-    const std::int32_t y = (a == k ? 0 : node_[k].y) + period_y - (b == l ? 0 : node_[l].y);
-    const std::size_t into = std::min(a, b);
+// The run s lies `period_x`, `period_y` periods beyond its place in the cell if it is reached from
+// r.
+void Openings::link(std::size_t r, std::size_t s, int period_x, int period_y) {
+    const std::size_t a = root_of_run(r), b = root_of_run(s), into = std::min(a, b);
+    const std::int32_t x = (a == r ? 0 : run_[r].x) + period_x - (b == s ? 0 : run_[s].x);
+    const std::int32_t y = (a == r ? 0 : run_[r].y) + period_y - (b == s ? 0 : run_[s].y);
     if (a == b) {
-        winds_[a] |= std::uint8_t((x != 0 ? 1 : 0) | (y != 0 ? 2 : 0));
+        run_[a].winds |= std::uint8_t((x != 0 ? 1 : 0) | (y != 0 ? 2 : 0));
     } else {
-        const std::size_t from = std::max(a, b);
-        const std::int32_t sign = from == b ? 1 : -1;
-        node_[from] = {std::uint32_t(into), sign * x, sign * y};
-        winds_[into] |= winds_[from];
+        Run& from = run_[std::max(a, b)];
+        const std::int32_t sign = a < b ? 1 : -1;
+        from.parent = std::uint32_t(into);
+        from.x = sign * x;
+        from.y = sign * y;
+        run_[into].winds |= from.winds;
     }
-    return winds_[into];
+    all_ |= run_[into].winds;
+}
+
+std::optional<std::size_t> Openings::run_of(std::size_t k) const {
+    const auto row = [&](std::size_t j) { return run_.begin() + std::ptrdiff_t(rows_[j]); };
+    const auto after =
+        std::upper_bound(row(k / nx_), row(k / nx_ + 1), k,
+                         [](std::size_t point, const Run& r) { return point < r.first; });
+    if (after == row(k / nx_) || (after - 1)->end <= k) return {};
+    return std::size_t(after - 1 - run_.begin());
+}
+
+std::uint8_t Openings::ways(std::size_t k) {
+    const auto r = run_of(k);
+    return r ? run_[root_of_run(*r)].winds : std::uint8_t(0);
+}
+
+std::size_t Openings::root(std::size_t k) {
+    const auto r = run_of(k);
+    return r ? run_[root_of_run(*r)].first : k;
 }
 
 }  // namespace rsc
