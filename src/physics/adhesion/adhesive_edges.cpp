@@ -12,7 +12,7 @@ constexpr int kMost = 1000;  // rounds of a level
 constexpr double kRelaxed = 2, kMomentum = 0.5;
 constexpr double kLeast = 0.3;  // of a share that remains after a round
 // Error of gaps of touching pixels relative to u0 and to the change of the shares.
-constexpr double kEarly = 0.1, kFinal = 0.1;
+constexpr double kEarly = 0.3, kFinal = 0.1;
 constexpr int kMostSteps = 60;            // of conjugate gradients in a round
 constexpr double kPenetration = 1e-3;     // relative to u0: of points apart from other contacts
 constexpr double kStiffnessError = 1e-9;  // of the residual
