@@ -317,15 +317,15 @@ def rows(paths, at=None, by=None, names=None):
         table = Table(path, names)
         columns, words = table.at(at, by) if at else (table.columns, table.words)
         fixed = ({"file": os.path.basename(path)} if len(found) > 1 else {}) | keys
-        names = {
+        titles = {
             name: f"{name} [{table.units[name]}]" if table.units[name] != "1" else name
             for name in columns
         }
-        header |= {name: None for name in fixed} | {name: None for name in names.values()}
+        header |= {name: None for name in fixed} | {name: None for name in titles.values()}
         lines += [
             fixed
             | {
-                names[n]: f"{round(v[k], 2) if n == 'contacts' else v[k]:.6g}"
+                titles[n]: f"{round(v[k], 2) if n == 'contacts' else v[k]:.6g}"
                 if np.isfinite(v[k])
                 else ""
                 for n, v in columns.items()

@@ -73,17 +73,19 @@ def loop(results, options):
     text = "" if result.control() == "force" else f", $N$ = {amount(N, result.dimension('force'))}"
     if "cycle" in result:
         along = _along(result)
-        axis.plot(xi @ along, force @ along, color=STYLES[0][2], label="rough")
+        # First loading and the cycles are two slides, each from rest.
+        first = result.file["point"].cycle[0] - 1
+        axis.plot(np.insert(xi @ along, first, np.nan), np.insert(force @ along, first, np.nan),
+                  color=STYLES[0][2], label="rough")
         smooth = _smooth(result, step)
         if smooth:
             x, Q, name = smooth
-            first = result.file["point"].cycle[0] - 1
             reach = min((xi @ along)[first], x[-1])
             back = np.interp(np.linspace(0, reach, 61), x, Q)
             half = np.linspace(0, reach, 61)
             axis.plot(
-                np.concatenate([x, reach - 2 * half, 2 * half - reach]),
-                np.concatenate([Q, back[-1] - 2 * np.interp(half, x, Q),
+                np.concatenate([x, [np.nan], reach - 2 * half, 2 * half - reach]),
+                np.concatenate([Q, [np.nan], back[-1] - 2 * np.interp(half, x, Q),
                                 2 * np.interp(half, x, Q) - back[-1]]),
                 STYLES[1][1], color=STYLES[1][2], label=name,
             )

@@ -194,7 +194,7 @@ def study(results, options):
     found = _keys(results)
     if not found:
         return None
-    in_sigma = all("separation_sigma" in r for r in results)
+    in_sigma = all("separation_sigma" in r for r in results) and "surface%sigma" not in found[0]
     separation = "separation_sigma" if in_sigma else "separation"
     if options.at is not None:
         of = "pressure" if "pressure" in results[0] else "force"

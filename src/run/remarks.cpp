@@ -255,7 +255,8 @@ struct Remarks {
                 return std::isnan(l.stiffness) && l.contacts > 0 && l.converged;
             },
             std::string("stiffness, conductance and resistance are missing: ") +
-                (elements ? "their iteration did not converge, or the gap of worn flats is closed"
+                (elements ? "the gap between two flats is closed, or their iteration did not "
+                            "converge"
                           : "contacts overlap too much for them" + to_elements()));
         say([](const LevelValues& l) { return l.status == LevelStatus::overlapping; },
             "overlapping - pairs of contact spots closer than the sum of their radii: "

@@ -222,15 +222,21 @@ public:
 void print_gap(std::ostream& out, const RunFacts& run) {
     const auto open = [](const LevelValues& l) { return l.percolates_x > 0; };
     const auto count = std::ranges::count_if(run.levels, open);
-    double most = 0, least = kInfinity;
+    // The last open and the first closed level by contact area.
+    const LevelValues *most = nullptr, *least = nullptr;
     for (const LevelValues& l : run.levels) {
-        if (open(l)) most = std::max(most, l.area_fraction);
-        if (l.percolates_x == 0) least = std::min(least, l.area_fraction);
+        if (open(l) && (!most || l.area_fraction > most->area_fraction)) most = &l;
+        if (l.percolates_x == 0 && (!least || l.area_fraction < least->area_fraction)) least = &l;
     }
+    const auto load = [&](const LevelValues& l) {
+        const Case::Run& units = run.settings.run;
+        return format("A/A0 = %.3g (%.4g %s/%s2)", l.area_fraction, l.pressure,
+                      units.force_unit.c_str(), units.length_unit.c_str());
+    };
     out << format("  gap: open across the cell along x at %zu of %zu levels", at(count),
                   run.levels.size());
-    if (count > 0) out << format(", up to A/A0 = %.3g", most);
-    if (least < kInfinity) out << format("; closed at A/A0 = %.3g and above", least);
+    if (most) out << ", up to " << load(*most);
+    if (least) out << "; closed at " << load(*least) << " and above";
     out << '\n';
     if (leak_asked(run.settings)) return;
     const auto& [l, f, t] = std::tie(run.settings.run.length_unit, run.settings.run.force_unit,

@@ -297,6 +297,12 @@ class Studies(InFolder):
         self.assertEqual(
             read["dimensions"]["force"], ("surface_sigma", "asperities_law", "realization", "step")
         )
+        for names in None, ["contact_area", "stiffness"]:  # as in the table of a member alone
+            header, lines = table.rows([path("r_manifest.nc")], None, None, names)
+            for k in range(6):
+                own, rows = table.rows([path(f"r_{k + 1:03d}.nc")], None, None, names)
+                for row, line in zip(rows, lines[k * len(rows) :]):
+                    self.assertLessEqual(set(zip(own, row)), set(zip(header, line)))
         os.remove(path("r_005.nc"))
         read = rsc.read(path("r_manifest.nc"), xarray=False)
         np.testing.assert_array_equal(
