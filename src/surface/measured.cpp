@@ -388,13 +388,19 @@ void tell_profile(const Measured& m, const char* l, std::vector<std::string>& li
     if (!profile.fit) return;
     const ProfileFit& fit = *profile.fit;
     lines.push_back(format(
-        "surface with such profiles (%s): rms height %.4g +- %.2g %s, rms slope of a profile %.4g "
-        "+- %.2g, 90 %% intervals",
+        "surface with such profiles (%s): rms height %.4g +- %.2g %s of waves up to %.4g %s "
+        "(form and filter take longer ones), rms slope of a profile %.4g +- %.2g, 90 %% intervals",
         m.fit->aspect == 1 ? "isotropic"
                            : format("lay with aspect %.3g at %.4g degrees, assumed", m.fit->aspect,
                                     m.fit->direction * 180 / std::numbers::pi)
                                  .c_str(),
-        fit.sigma.value, fit.sigma.error, l, fit.slope.value, fit.slope.error));
+        fit.sigma.value, fit.sigma.error, l, 2 * std::numbers::pi / profile.spectrum.lowest, l,
+        fit.slope.value, fit.slope.error));
+    if (fit.surface.hurst.value > 0.99 * kMostHurst)
+        lines.push_back(
+            "warning: the spectrum falls faster than that of a self-affine surface, as where the "
+            "instrument smooths: surface%profile_surface = 'inversion' takes it as it is, and "
+            "surface%filter_cutoff removes its short waves");
     if (fit.noise > 0)
         lines.push_back(format(
             "white noise of some %.2g %s rms lies under the spectrum; surface%%filter_cutoff "

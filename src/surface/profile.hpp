@@ -62,6 +62,8 @@ struct ProfileFit {
     double noise = 0;     // density of white noise under it, 0: none seen [length^3]
     Fitted sigma, slope;  // rms height, and rms slope of the profile, of the fitted band
 };
+// The largest H of a fit.
+inline constexpr double kMostHurst = 1.6;
 // Throws Error(bad_input) for fewer than 8 bands.
 ProfileFit fit_profile(const ProfileSpectrum& spectrum);
 bool can_fit(const ProfileSpectrum& spectrum);

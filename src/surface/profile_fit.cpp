@@ -103,7 +103,7 @@ public:
         return {weights_ * scale + logs, scale};
     }
     std::pair<double, double> misfit(const Point& x, bool plateau) const {
-        if (x[hurst] < -0.45 || x[hurst] > 1.6 || !(x[log_ks] > x[log_kl] + 0.05))
+        if (x[hurst] < -0.45 || x[hurst] > kMostHurst || !(x[log_ks] > x[log_kl] + 0.05))
             return {HUGE_VAL, 0};
         return misfit(expected(x, plateau), std::exp(x[log_noise]));
     }
