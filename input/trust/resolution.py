@@ -60,10 +60,10 @@ QUANTITIES = {
     "contact_area_pixels": (),
     "stiffness": ("conductance_length", "conductance_per_area", "resistance"),
     "energy": (),
-    "pressure_max": (),
+    "pressure_max": ("wear_depth_max",),  # the depth is the integral of the pressure of a point
     "gap_mean": (),
 }
-CHECKED = (*QUANTITIES, "permeability", "wear_depth_max", "worn_rms")
+CHECKED = (*QUANTITIES, "permeability", "wear_depth_max")
 GRID = 1 << 2  # bit of the doubt
 
 

@@ -43,8 +43,8 @@ void AsperityModel::solve_again(double Z0, const Level& level) {
     my.solution.clear();
     if (start.empty()) return;
     my.solve_from(start, false);
-    my.solved = {Z0, level.unique};
-    my.earlier.remember(Z0, my.candidates, my.solution.v, my.solved.unique);
+    my.solved = Z0;
+    my.earlier.remember(Z0, my.candidates, my.solution.v);
 }
 
 void AsperityModel::keep(ArchiveWriter& to) const {

@@ -21,16 +21,12 @@ struct AsperityModel::Impl : ContactBodies {
     Candidates candidates;
     Solution solution;
     Method method = Method::direct;
-    struct {
-        double separation = 0;
-        bool unique = true;  // the solution is proved to be unique
-    } solved;                // last result of solve()
+    double solved = 0;  // separation of the last result of solve()
 
     // All of the last solution but the points of the products.
     template <class Archive, class Self>
     static void archive(Archive& a, Self& my) {
-        a(my.earlier, my.candidates, my.solution, my.solved.separation, my.solved.unique,
-          my.method);
+        a(my.earlier, my.candidates, my.solution, my.solved, my.method);
         if (!my.solution.v.empty()) a(my.newton);
     }
     struct Tried {
@@ -43,6 +39,8 @@ struct AsperityModel::Impl : ContactBodies {
     std::unique_ptr<Products> direct, mesh;  // mesh: created on first use
     Products* products = nullptr;            // the products in use
     Newton newton;
+    std::unique_ptr<Products> of_part;  // of a doubtful part alone
+    Newton part_newton;
 
     Impl(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_,
          MakeAsperityPhysics make);
@@ -57,8 +55,8 @@ struct AsperityModel::Impl : ContactBodies {
     void use(Method how);
     void select(double Z0);  // determines candidates and method
     NewtonOutcome solve_from(const std::vector<double>& start, bool rough_start);
-    // True if the solution continues the branch of the accepted levels (path-dependent laws). For
-    // other laws solve_cold() selects among several solutions.
+    // True if the solution continues the branch of the accepted levels (path-dependent laws). Of
+    // several solutions for other laws, cold starts select the one.
     bool follows() const { return law->memory() != nullptr; }
     // Descends from the no-interaction start to a minimum of the energy. This defines the solution
     // if there are several.
@@ -70,16 +68,14 @@ struct AsperityModel::Impl : ContactBodies {
     Level level(double Z0, const NewtonOutcome& outcome, bool unique) const;
     std::optional<Level> solve_trial(double Z0);
     NewtonOutcome solve_by_paper(Fallback& why_not);
-    bool one_solution() {
+    // Parts of the solution that are not proved to be unique.
+    std::vector<std::vector<std::size_t>> doubtful() const {
         const auto& [v, force, slope] = solution;
-        // On a soft layer self() < 0: a spot wider than the layer can be unstable by itself (no
-        // minimum of the energy).
-        if (std::any_of(slope.begin(), slope.end(),
-                        [&](double rate) { return 1 + rate * kernel->self() <= 0; }))
-            return false;
         const WorkingSet& set = candidates.set;
-        return has_one_solution(*law, *kernel, set.asperity, set.x, set.y, v, force, slope);
+        return doubtful_parts(*law, *kernel, set.asperity, set.x, set.y, v, force, slope);
     }
+    bool independent(bool& unique);
+    std::vector<double> alone(const std::vector<std::size_t>& part);
     Level report(double Z0) const;
 };
 

@@ -19,7 +19,10 @@ AsperityModel::Impl::Impl(const Asperities& asperities_, const Indenter& indente
       law(physics.law.get()),
       history(physics.history.get()),
       direct(make_direct_products(kernel)),
-      newton(*law) {
+      newton(*law),
+      of_part(make_direct_products(kernel)),
+      part_newton(*law) {
+    part_newton.use(*of_part);
     use(Method::direct);
     if (options.selection == Selection::paper && std::isnan(indenter.shape->hertz_radius()))
         throw Error(Failure::bad_input,
@@ -48,6 +51,42 @@ NewtonOutcome AsperityModel::Impl::solve_from(const Vector& start, bool rough_st
     return solve_candidates(candidates.set, newton, *products,
                             {options.tolerance, options.max_iterations, rough_start}, start,
                             solution);
+}
+
+// Penetrations of a doubtful part from its own cold start, in the field of all other asperities.
+Vector AsperityModel::Impl::alone(const std::vector<std::size_t>& part) {
+    WorkingSet set;
+    Solution own;
+    for (const std::size_t k : part) {
+        set.asperity.push_back(candidates.set.asperity[k]);
+        set.x.push_back(candidates.set.x[k]);
+        set.y.push_back(candidates.set.y[k]);
+        own.v.push_back(solution.v[k]);
+    }
+    set.g0 = own.v;
+    of_part->set_points(set.size(), set.x.data(), set.y.data());
+    part_newton.take(set, own.v);
+    for (const std::size_t k : indices(part)) set.g0[k] += part_newton.phi()[k];
+    solve_candidates(set, part_newton, *of_part, {options.tolerance, options.max_iterations, true},
+                     cold_start(*law, *of_part, set), own);
+    return own.v;
+}
+
+// Whether the solution does not depend on the start it was found from: it is unique, or each doubtful
+// part is in the state to which its own cold start leads in the field of the others.
+bool AsperityModel::Impl::independent(bool& unique) {
+    const auto parts = doubtful();
+    unique = parts.empty();
+    // Penetrations of candidates far from contact are computed in single precision.
+    const double same = 1e-4 * *std::ranges::max_element(solution.v);
+    return std::ranges::all_of(parts, [&](const auto& part) {
+        if (2 * part.size() > solution.v.size()) return false;  // as much as to solve all
+        const Vector v = alone(part);
+        const auto agree = [&](double one, std::size_t k) {
+            return std::abs(std::max(one, 0.0) - std::max(solution.v[k], 0.0)) < same;
+        };
+        return std::ranges::equal(v, part, agree);
+    });
 }
 
 NewtonOutcome AsperityModel::Impl::solve_by_paper(Fallback& why_not) {
@@ -140,7 +179,7 @@ std::optional<Level> AsperityModel::Impl::solve_trial(double Z0) {
     const NewtonOutcome outcome = solve_from(start, false);
     if (!outcome.converged) return std::nullopt;
     tried = {Z0, outcome};
-    earlier.remember(Z0, candidates, solution.v, earlier.unique());
+    earlier.remember(Z0, candidates, solution.v);
     Level level;
     level.separation = Z0;
     level.force = std::accumulate(solution.force.begin(), solution.force.end(), 0.0);
@@ -160,45 +199,41 @@ Level AsperityModel::solve(double Z0, bool trial) {
         if (std::optional<Level> level = my.solve_trial(Z0)) return std::move(*level);
     if (my.candidates.size() == 0) {
         my.solution.clear();
-        my.solved = {Z0, true};
-        if (!my.follows()) my.earlier.remember(Z0, my.candidates, my.solution.v, true);
+        my.solved = Z0;
+        if (!my.follows()) my.earlier.remember(Z0, my.candidates, my.solution.v);
         return my.report(Z0);
     }
     const long products_before = my.products_taken();
     NewtonOutcome outcome;
     int iterations = 0;
-    bool unique = false, followed = false;
+    bool unique = false, settled = false;
     const bool dense = my.method == Method::dgesv;
     Fallback fallback = Fallback::none;
     if (dense) {
         my.use(Method::direct);
         outcome = my.solve_by_paper(fallback);
         iterations = outcome.iterations;
-        unique = outcome.converged && my.one_solution();
+        settled = unique = outcome.converged && my.doubtful().empty();
         my.products->set_points(my.candidates.size(), my.candidates.set.x.data(),
                                 my.candidates.set.y.data());
         my.newton.take(my.candidates.set, my.solution.v);
     }
     const bool by_dgesv = dense && unique;
-    if (completes) {
-        outcome = tried->outcome;
-        unique = my.one_solution();
-    } else if (Vector start; !unique && (my.follows() || !dense) &&
-                             my.earlier.predict(Z0, my.candidates, start) &&
-                             (my.follows() || my.earlier.unique())) {
-        outcome = my.solve_from(start, false);
-        iterations += outcome.iterations;
-        followed = outcome.converged && my.follows();
-        unique = outcome.converged && my.one_solution();
+    Vector start;
+    if (completes ||
+        (!settled && (my.follows() || !dense) && my.earlier.predict(Z0, my.candidates, start))) {
+        outcome = completes ? tried->outcome : my.solve_from(start, false);
+        iterations += completes ? 0 : outcome.iterations;
+        settled = outcome.converged && (my.independent(unique) || my.follows());
     }
-    if (!unique && !followed) {
+    if (!settled) {
         outcome = my.solve_cold();
         iterations += outcome.iterations;
-        unique = outcome.converged && my.one_solution();
+        unique = outcome.converged && my.doubtful().empty();
     }
     if (dense && !by_dgesv && fallback == Fallback::none) fallback = Fallback::not_unique;
-    my.solved = {Z0, unique};
-    if (!my.follows()) my.earlier.remember(Z0, my.candidates, my.solution.v, unique);
+    my.solved = Z0;
+    if (!my.follows()) my.earlier.remember(Z0, my.candidates, my.solution.v);
     Level level = my.level(Z0, outcome, unique);
     level.iterations = iterations;
     level.products = by_dgesv ? iterations : my.products_taken() - products_before;
@@ -211,7 +246,7 @@ void AsperityModel::accept(Level& level) {
     Impl& my = *impl_;
     if (!my.law->memory()) return;
     const WorkingSet& set = my.candidates.set;
-    my.earlier.remember(my.solved.separation, my.candidates, my.solution.v, my.solved.unique);
+    my.earlier.remember(my.solved, my.candidates, my.solution.v);
     my.history->accept(set, my.solution, *my.products, level);
     if (my.solution.v.empty()) return;
     // Forces are unchanged; energy and stiffness now refer to unloading.
@@ -289,7 +324,7 @@ std::shared_ptr<const Asperities> AsperityModel::asperities() const {
     const std::shared_ptr<const Asperities> present(std::shared_ptr<void>(), &impl_->asperities);
     if (!impl_->of_difference) return present;
     const auto all = std::make_shared<ShiftedSummits>(*impl_->of_difference);
-    for (std::size_t i = 0; i < present->size(); ++i) all->shift(i);
+    for (std::size_t i = 0; i < present->size(); ++i) all->shift_and_prepare(i);
     return {all, &all->summits()};
 }
 

@@ -1,30 +1,39 @@
 #include "asperities/ellipse.hpp"
 
-#include <boost/math/special_functions/ellint_rd.hpp>
-#include <boost/math/special_functions/ellint_rf.hpp>
-
 #include "base/error.hpp"
 
 namespace rsc {
 namespace {
 
-// B = [E - (1 - k^2) K]/k^2 and D = (K - E)/k^2 of modulus k, which are finite and accurate at k =
-// 0 (Carlson's forms).
+// K, B = [E - (1 - k^2) K]/k^2 and D = (K - E)/k^2 of modulus k, which are finite and accurate at
+// k = 0.
 struct Elliptic {
     double K, B, D;
 };
 
+// By the arithmetic-geometric mean of 1 and the complementary modulus: K = pi/(2 a) of its limit a,
+// and D = K sum 2^(n-1) c_n^2/k^2 with c_0 = k and c_n+1 = c_n^2/(4 a_n+1) half the difference of
+// the two means.
 Elliptic elliptic(double complementary) {
-    const double K = complete_K(complementary),
-                 D = boost::math::ellint_rd(0.0, complementary * complementary, 1.0) / 3;
+    double arithmetic = 0.5 * (1 + complementary);
+    double geometric = std::sqrt(complementary);
+    double half = 0.5 * (1 - complementary);
+    double term = 0.5 * half / (1 + complementary);
+    double sum = 0.5;
+    while (sum + term > sum) {
+        sum += term;
+        const double next = 0.5 * (arithmetic + geometric);
+        geometric = std::sqrt(arithmetic * geometric);
+        arithmetic = next;
+        const double shrink = half / (4 * arithmetic);
+        half *= shrink;
+        term *= 2 * shrink * shrink;
+    }
+    const double K = std::numbers::pi / (2 * arithmetic), D = K * sum;
     return {K, K - D, D};
 }
 
 }  // namespace
-
-double complete_K(double complementary) {
-    return boost::math::ellint_rf(0.0, complementary * complementary, 1.0);
-}
 
 EllipseFactors ellipse_factors(double ratio) {
     if (!(ratio >= 1) || !std::isfinite(ratio)) {

@@ -15,9 +15,4 @@ struct EllipseFactors {
 // 1e-13. Throws Error(bad_input) unless the ratio is finite and at least 1.
 EllipseFactors ellipse_factors(double ratio);
 
-// Complete elliptic integral K of the complementary modulus k' = sqrt(1 - k^2), 0 < k' <= 1: pi/2
-// over the arithmetic-geometric mean of 1 and k'. (Functions of k are inaccurate for narrow
-// ellipses, where k is rounded to 1.)
-double complete_K(double complementary);
-
 }  // namespace rsc

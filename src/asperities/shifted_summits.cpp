@@ -15,16 +15,16 @@ Tensor curvatures_of(const Asperities& a, std::size_t i) {
 // Maximum of -g'd - d'H d/2 over |d| <= radius for a positive definite H: d = -(H + m)^-1 g, with
 // m = 0 within the range and on its border the m > 0 at which |d| = radius.
 Vec2 highest_within(const Tensor& H, const Vec2& g, double radius) {
-    const double mean = 0.5 * (H.xx + H.yy),
-                 half = std::hypot(0.5 * (H.xx - H.yy), H.xy);  // eigenvalues mean +- half
     const auto at = [&](double m) {
         const double xx = H.xx + m, yy = H.yy + m, determinant = xx * yy - H.xy * H.xy;
         return Vec2{-(yy * g.x - H.xy * g.y) / determinant, -(xx * g.y - H.xy * g.x) / determinant};
     };
     Vec2 d = at(0);
-    if (!(std::hypot(d.x, d.y) > radius)) return d;
+    if (!(d.x * d.x + d.y * d.y > radius * radius)) return d;
     // 1/|d(m)| is a concave function of m between two straight lines: Newton's method on it
     // converges monotonically from below.
+    const double mean = 0.5 * (H.xx + H.yy),
+                 half = std::hypot(0.5 * (H.xx - H.yy), H.xy);  // eigenvalues mean +- half
     double m = std::max(0.0, std::hypot(g.x, g.y) / radius - (mean + half));
     constexpr int most = 30;
     for (int k = 0; k < most; ++k) {
@@ -57,6 +57,8 @@ ShiftedSummits::ShiftedSummits(const Asperities& of_surface, const Indenter& ind
                    ? -kInfinity
                    : *std::max_element(of_surface.z.begin(), of_surface.z.end())),
       shifted_(of_surface),
+      own_(of_surface.size(), {kNotComputed, 0, 0}),
+      bent_(of_surface.size()),
       done_(of_surface.size()) {}
 
 void ShiftedSummits::forget() {
@@ -70,7 +72,8 @@ void ShiftedSummits::shift(std::size_t i) {
     done_[i] = kShifted;
     const Asperities& a = of_surface_;
     const IndenterShape& shape = *indenter_.shape.operator->();
-    const Tensor H = curvatures_of(a, i);
+    if (std::isnan(own_[i].xx)) own_[i] = curvatures_of(a, i);
+    const Tensor H = own_[i];
     const Vec2 at = indenter_.from_tip(a.x[i], a.y[i]);
     Vec2 d;
     Tensor bent = H;
@@ -87,13 +90,24 @@ void ShiftedSummits::shift(std::size_t i) {
             flattened = shape.biharmonic(at.x, at.y);
         }
     }
-    const double z = a.z[i] - 0.5 * (H.xx * d.x * d.x + 2 * H.xy * d.x * d.y + H.yy * d.y * d.y);
+    bent_[i] = bent;
+    shifted_.x[i] = a.x[i] + d.x;
+    shifted_.y[i] = a.y[i] + d.y;
+    shifted_.z[i] = a.z[i] - 0.5 * (H.xx * d.x * d.x + 2 * H.xy * d.x * d.y + H.yy * d.y * d.y);
+    if (!a.biharmonic.empty()) shifted_.biharmonic[i] = a.biharmonic[i] - flattened;
+}
+
+void ShiftedSummits::shift_and_prepare(std::size_t i) {
+    shift(i);
+    if (done_[i] == kPrepared) return;
+    done_[i] = kPrepared;
+    const Tensor& bent = bent_[i];
     for (const AsperityColumn& column : kAsperityColumns) (one_.*column.values).clear();
-    append_summit(a.x[i] + d.x, a.y[i] + d.y, z, {-0.5 * bent.xx, -0.5 * bent.yy, -0.5 * bent.xy},
+    append_summit(0, 0, 0, {-0.5 * bent.xx, -0.5 * bent.yy, -0.5 * bent.xy},
                   geometric_ ? Curvature::geometric : Curvature::algebraic, one_);
-    if (!a.biharmonic.empty()) one_.biharmonic.push_back(a.biharmonic[i] - flattened);
-    for (const AsperityColumn& column : kAsperityColumns)
-        if (!(one_.*column.values).empty()) (shifted_.*column.values)[i] = (one_.*column.values)[0];
+    for (const auto column :
+         {&Asperities::radius, &Asperities::kappa1, &Asperities::kappa2, &Asperities::angle})
+        if (!(one_.*column).empty()) (shifted_.*column)[i] = (one_.*column)[0];
 }
 
 // The face above the shifted place is at most highest_ - Z0; from there to the summit it rises by

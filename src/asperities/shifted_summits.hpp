@@ -23,14 +23,12 @@ public:
 
     // To be called when the tip has moved: none is shifted any more.
     void forget();
-    // Shifts summit i, unless that was done since the tip moved.
+    // Finds the place and the height of summit i, unless that was done since the tip moved.
     void shift(std::size_t i);
-    // True if the law was prepared for summit i since the tip moved; told by the law.
+    // True if the law was prepared for summit i since the tip moved.
     bool prepared(std::size_t i) const { return done_[i] == kPrepared; }
-    void shift_and_prepare(std::size_t i) {
-        shift(i);
-        done_[i] = kPrepared;
-    }
+    // Shifts summit i and finds its curvatures, for the law that is prepared for it.
+    void shift_and_prepare(std::size_t i);
 
     // Those that are not shifted have the values of the surface or of another place of the tip.
     const Asperities& summits() const { return shifted_; }
@@ -46,7 +44,9 @@ private:
     bool geometric_;  // the radius is 1/kappa_g, otherwise 1/kappa_a
     double highest_;  // largest z
     Asperities shifted_;
-    Asperities one_;  // work space
+    Asperities one_;            // work space
+    std::vector<Tensor> own_;   // curvatures of the summits of the surface; NaN: not computed yet
+    std::vector<Tensor> bent_;  // those of the shifted ones
     enum Done : std::uint8_t { kNothing, kShifted, kPrepared };
     std::vector<Done> done_;
     std::vector<std::size_t> which_;  // those with which something is done

@@ -7,10 +7,7 @@ using Vector = std::vector<double>;
 
 }  // namespace
 
-void EarlierLevels::remember(double Z0, const Candidates& candidates, const Vector& v,
-                             bool unique) {
-    unique_ = unique;
-    ++solved_;
+void EarlierLevels::remember(double Z0, const Candidates& candidates, const Vector& v) {
     const auto& rank = candidates.rank;
     Past level{Z0, Vector(rank.empty() ? 0 : rank.back() + 1, kNotComputed)};
     for (std::size_t k = 0; k < rank.size(); ++k) level.phi[rank[k]] = candidates.set.g0[k] - v[k];
@@ -39,7 +36,6 @@ void EarlierLevels::carry(const Candidates& candidates, const Vector& v, std::si
                 last_place_.phi[at(candidates.set.asperity[k])] = candidates.set.g0[k] - v[k];
         }
         past_.reset();
-        solved_ = 0;
     }
     constexpr double straight = 0.2, furthest = 2.5;
     const Vec2 move{to.x - last_place_.place.x, to.y - last_place_.place.y};

@@ -10,11 +10,8 @@ namespace rsc {
 // Earlier levels, from which B F of the next level is extrapolated.
 class EarlierLevels {
 public:
-    // Stores the level at Z0 with penetrations v over the candidates. `unique`: its solution is
-    // proved to be unique. `passed`: an intermediate solution, which is replaced by the next one
-    // and need not be unique.
-    void remember(double Z0, const Candidates& candidates, const std::vector<double>& v,
-                  bool unique);
+    // Stores the level at Z0 with penetrations v over the candidates.
+    void remember(double Z0, const Candidates& candidates, const std::vector<double>& v);
 
     // Sets dphi/dZ0 of the last level stored, over its candidates, which serves until there is
     // another level.
@@ -26,7 +23,6 @@ public:
     void carry(const Candidates& candidates, const std::vector<double>& v, std::size_t asperities,
                Vec2 from, Vec2 to);
 
-    bool unique() const { return unique_; }  // the last solution is proved to be unique
     // Predicts penetrations at Z0 from the last level and its slope, or at a new place of the tip
     // from the levels of the last two places. Candidates that are not in earlier levels are assumed
     // not to touch (which is checked later). Returns false without a prediction.
@@ -34,7 +30,6 @@ public:
 
     // Start for force control, if there is one below `first_touch`.
     std::optional<double> likely_separation(double first_touch) const;
-    std::size_t size() const { return solved_; }  // number of levels stored since the tip moved
 
     // Whether archived levels are of this many asperities.
     bool fits(std::size_t asperities) const {
@@ -42,7 +37,7 @@ public:
     }
     template <class Archive, class Self>
     static void archive(Archive& a, Self& my) {
-        a(my.past_, my.solved_, my.unique_, my.last_place_, my.place_before_, my.step_ratio_);
+        a(my.past_, my.last_place_, my.place_before_, my.step_ratio_);
     }
 
 private:
@@ -56,8 +51,6 @@ private:
         }
     };
     std::optional<Past> past_;  // the last level at this place of the tip
-    std::size_t solved_ = 0;
-    bool unique_ = true;
 
     struct AtPlace {
         double separation = 0;

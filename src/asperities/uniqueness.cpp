@@ -351,17 +351,28 @@ struct Partners {
 
 }  // namespace
 
-bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<int>& asperity,
-                      const Vector& x, const Vector& y, const Vector& v, const Vector& force,
-                      const Vector& slope) {
-    if (kernel.none() || v.empty()) return true;
-    if (!law.capabilities().convex && !law.memory()) return false;  // its slopes are not bounded
+std::vector<std::vector<std::size_t>> doubtful_parts(const Law& law, const Kernel& kernel,
+                                                     const std::vector<int>& asperity,
+                                                     const Vector& x, const Vector& y,
+                                                     const Vector& v, const Vector& force,
+                                                     const Vector& slope) {
+    if (kernel.none() || v.empty()) return {};
+    const auto all = [&] {
+        std::vector<std::size_t> points(v.size());
+        std::iota(points.begin(), points.end(), 0);
+        return std::vector<std::vector<std::size_t>>{points};
+    };
+    if (!law.capabilities().convex && !law.memory()) return all();  // its slopes are not bounded
+    // On a soft layer self() < 0: a spot wider than the layer can be unstable by itself (no minimum
+    // of the energy).
+    if (std::ranges::any_of(slope, [&](double rate) { return 1 + rate * kernel.self() <= 0; }))
+        return all();
     const double E_star = kernel.modulus();
     const std::size_t n = v.size();
     const double deepest = *std::max_element(v.begin(), v.end());
     const Radii radii(law, E_star, asperity, slope, deepest);
     Partners partners(kernel, x, y, radii);
-    if (!partners.told_apart) return false;
+    if (!partners.told_apart) return all();
 
     // Bounds on the penetrations of any other solution: upper bounds without the close partners
     // give lower bounds, and so on.
@@ -380,7 +391,7 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
         }
     };
     secants();
-    if (!shells_fit(a, kernel.period())) return false;
+    if (!shells_fit(a, kernel.period())) return all();
     // For the widest shells; the bounds only become narrower below.
     const auto pairs = shell_pairs(x, y, a, kernel.period());
     auto doubtful = doubtful_clusters(pairs, a);
@@ -388,7 +399,7 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
         return positive_definite(cluster, of_points(cluster, a));
     };
     std::erase_if(doubtful, settled);
-    if (doubtful.empty()) return true;
+    if (doubtful.empty()) return {};
     for (auto [from, to] : {std::pair{&high, &low}, std::pair{&low, &high}}) {
         for (std::size_t i = 0; i < n; ++i) f[i] = law.force(asperity[i], (*from)[i]);
         couple(partners.close, f, relief);
@@ -399,10 +410,14 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
     std::erase_if(doubtful, settled);
     // Penetrations of candidates far from contact are computed in single precision.
     constexpr double precision = 1e-4;
-    return std::all_of(doubtful.begin(), doubtful.end(), [&](const Cluster& cluster) {
-        return Search(law, E_star, cluster, partners.close, asperity, v, slope, precision * deepest)
-            .finds_one(of_points(cluster, low), of_points(cluster, high));
-    });
+    std::vector<std::vector<std::size_t>> parts;
+    for (const Cluster& cluster : doubtful) {
+        Search search(law, E_star, cluster, partners.close, asperity, v, slope,
+                      precision * deepest);
+        if (!search.finds_one(of_points(cluster, low), of_points(cluster, high)))
+            parts.push_back(cluster.points);
+    }
+    return parts;
 }
 
 }  // namespace rsc

@@ -31,17 +31,18 @@ namespace rsc {
 bool positive_definite_by_shells(const std::vector<double>& x, const std::vector<double>& y,
                                  const std::vector<double>& a, const Period& period = {});
 
-// True if no other solution exists near the given one (penetrations v, negative: no contact;
-// forces; slopes) of all candidates. A second solution differs by dF with dF'(B + 1/D')dF = 0,
-// where D' is the secant slope of the law between the two, and its penetrations cannot exceed those
-// without close partners. The shell test with these secants can prove that there is none. If it
-// does not, the box of possible penetrations of a doubtful cluster is bisected, and each part is
-// narrowed by the equation until it is empty or passes the test with its own, smaller secants. The
-// field of more distant contacts is that of the given solution, within a tenth of the possible
-// change by the cluster itself.
-bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<int>& asperity,
-                      const std::vector<double>& x, const std::vector<double>& y,
-                      const std::vector<double>& v, const std::vector<double>& force,
-                      const std::vector<double>& slope);
+// The parts of the contact that may have another solution near the given one (penetrations v,
+// negative: no contact; forces; slopes) of all candidates; none: the solution is unique. Where
+// nothing can be proved the part is all of them. A second solution differs by dF with
+// dF'(B + 1/D')dF = 0, where D' is the secant slope of the law between the two, and its penetrations
+// cannot exceed those without close partners. The shell test with these secants can prove that there
+// is none. If it does not, the box of possible penetrations of a doubtful cluster is bisected, and
+// each part is narrowed by the equation until it is empty or passes the test with its own, smaller
+// secants. The field of more distant contacts is that of the given solution, within a tenth of the
+// possible change by the cluster itself.
+std::vector<std::vector<std::size_t>> doubtful_parts(
+    const Law& law, const Kernel& kernel, const std::vector<int>& asperity,
+    const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& v,
+    const std::vector<double>& force, const std::vector<double>& slope);
 
 }  // namespace rsc

@@ -90,9 +90,10 @@ struct Remarks {
     }
 
     static double error_of_force(const LevelValues& l) {
-        return l.force_error_expected >= 0
-                   ? l.force_error_expected
-                   : l.separation_error_expected * std::abs(l.stiffness) / std::abs(l.force);
+        if (l.force_error_expected >= 0) return l.force_error_expected;
+        if (l.plastic_contacts > 0)  // the stiffness is that of unloading
+            return l.errors[find_quantity("force")->quantity->slot];
+        return l.separation_error_expected * std::abs(l.stiffness) / std::abs(l.force);
     }
 
     // The largest value of the levels with a doubt; 0: none is known.

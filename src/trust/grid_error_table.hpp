@@ -23,6 +23,7 @@ inline constexpr ResolutionError kResolutionErrors[] = {
     {"resistance", 0.0232, 2, 0.25, 0.0927, {2, 1.46, 1.54}},
     {"energy", 0.0101, 2, 0, 0.0101, {4, 6.08, 6.62}},
     {"pressure_max", 0.0582, 1.5, 0, 0.233, {1.5, 14.5, 1}},
+    {"wear_depth_max", 0.0582, 1.5, 0, 0.233, {1.5, 14.5, 1}},
     {"gap_mean", 0.0013, 1.5, 0, 0, {1.5, 1, 3.65}},
 };
 

@@ -68,7 +68,7 @@ TEST(shift_is_the_highest_point) {
         one.radius = {1 / std::sqrt(high * low)};
         const double farthest = 0.02 + 0.1 * uniform(random);
         ShiftedSummits shifts(one, tip, farthest);
-        shifts.shift(0);
+        shifts.shift_and_prepare(0);
         const Asperities& found = shifts.summits();
         const auto clearance = [&](double dx, double dy) {
             const double u = dx * std::cos(angle) + dy * std::sin(angle),

@@ -6,6 +6,7 @@
 #include "asperities/law.hpp"
 #include "check.hpp"
 #include "contact/spots.hpp"
+#include "support/paths.hpp"
 
 namespace test_uniqueness {
 
@@ -132,14 +133,47 @@ TEST(told_only_where_it_is_so) {
         for (const Vector& v : minima) {
             Vector force(n), slope(n), work(n);
             law->respond(int(n), all.data(), v.data(), force.data(), slope.data(), work.data());
-            const bool one = has_one_solution(*law, *make_kernel(Interaction::point, E_star), all,
-                                              p.x, p.y, v, force, slope);
+            const bool one = doubtful_parts(*law, *make_kernel(Interaction::point, E_star), all,
+                                            p.x, p.y, v, force, slope)
+                                 .empty();
             CHECK(!one || minima.size() == 1);
             told += one && !wide;
         }
     }
     CHECK(several > 200 && several_wide > 200);
     CHECK(told > 0.8 * unique);
+}
+
+// Of several solutions a level has the same one whatever the levels before: crowded groups of
+// summits, far apart, many of which have two.
+TEST(several_after_any_way) {
+    constexpr double E_star = 1 / pi, kTolerance = 1e-11, kSame = 1e-8;
+    std::mt19937_64 random(2);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    Asperities p;
+    for (const int group : indices(60))
+        for (int k = 0; k < 3; ++k) {
+            p.x.push_back(30.0 * (group % 8) + uniform(random));
+            p.y.push_back(30.0 * (group / 8) + uniform(random));
+            p.z.push_back(uniform(random));
+            p.radius.push_back(0.3 + uniform(random));
+        }
+    const SolverOptions options{.tolerance = kTolerance};
+    const auto path = [&] { return asperity_path(p, {E_star, kInfinity, 0, 0}, options); };
+    int several = 0;
+    for (int k = 0; k < 10; ++k) {
+        const double Z0 = 0.4 - 0.05 * k;
+        const Level truth = path().at_separation(Z0);
+        several += !truth.unique;
+        for (const double before : {Z0 - 1.5, Z0 - 0.05, Z0 + 0.05, Z0 + 0.3}) {
+            Path walked = path();
+            (void)walked.at_separation(before);
+            const Level level = walked.at_separation(Z0);
+            CHECK(level.contacts == truth.contacts);
+            CHECK_RELATIVE(level.force, truth.force, kSame);
+        }
+    }
+    CHECK(several > 5);
 }
 
 // The lowest eigenvalue against bisection on Cholesky of the shifted matrix.

@@ -89,6 +89,12 @@ void check_wear(const Case& settings, const Complain& complain) {
                  "move over body 1 and wear, too");
 }
 
+// The integral of N over the distance has the error of N; it is known where N is prescribed.
+double error_of_worn_volume(const LevelValues& level, std::size_t) {
+    const bool by_force = level.separation_error_expected >= 0;
+    return by_force ? 0.0 : level.force_error_expected;
+}
+
 std::vector<LevelQuantity> wear_quantities() {
     using V = LevelValues;
     return {
@@ -110,6 +116,7 @@ std::vector<LevelQuantity> wear_quantities() {
          .meaning = "volume that is worn off",
          .comment = "solids%wear_coefficient times the integral of the force over the sliding "
                     "distance, of both bodies",
+         .own_error = error_of_worn_volume,
          .always = false,
          .shown = [](const Case& c) { return c.solids.wear_coefficient > 0; },
          .answers = true,

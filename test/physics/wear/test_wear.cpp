@@ -277,6 +277,28 @@ TEST(files) {
     CHECK_RELATIVE(second.values("separation")[0], first.values("separation")[2], 1e-5);
 }
 
+// The errors that a run states on a coarse grid cover those against the ball of TEST(worn_ball).
+TEST(errors) {
+    const Folder folder;
+    const std::string map = folder.write(
+        "flat.txt", rows_of_text(24, 24, [](int i, int j) { return (i + j) % 2 ? 1e-9 : -1e-9; }));
+    const Reader run = run_to(
+        folder / "ball.nc",
+        "&solids E=1e3, Infinity nu=0, 0 R=Infinity, 1 wear_coefficient=1e-4 /"
+        "&surface source='heights' detrend='none' L=0.13 file='" +
+            map + "' / &indentation control='force' levels=4*0.02 distances=0, 0.1, 0.5, 2 /");
+    const auto depths = run.values("wear_depth_max"),
+               errors = run.values("wear_depth_max_error_expected"),
+               of_volume = run.values("worn_volume_error_expected");
+    for (int k = 1; k < 4; ++k) {
+        const double s = run.values("distance")[at(k)];
+        const truth::WornBall truth = truth::worn_ball(1e3, 1, 0.02, 1e-4, s, 0.06, 240, 200);
+        CHECK(std::abs(depths[at(k)] / truth.depth - 1) <= errors[at(k)] && errors[at(k)] < 0.3);
+        CHECK(of_volume[at(k)] < 1e-9);  // the force is given
+        CHECK_RELATIVE(run.values("worn_volume")[at(k)], 1e-4 * 0.02 * s, 1e-9);
+    }
+}
+
 TEST(refused) {
     const HeightMap map = flat_map(16, 16, 0.01, 0.01);
     const Indenter ball{1e3, 1.0, 0.075, 0.075};
