@@ -286,6 +286,8 @@ private:
         require(elements_, {"solver%model", "surface%source"},
                 "a profile has no summits: its contact is solved by elements");
         require(!s.window[0], {"surface%window", "surface%source"}, "is for maps");
+        require(c_.solids.adhesion == 0, {"solids%adhesion", "surface%source"},
+                "not available for a surface that is constant along y");
         require(shape() != "map", {"indenter%shape", "surface%source"},
                 "a map is not constant along y, as a surface with source = 'profile' is");
     }
