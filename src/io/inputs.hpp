@@ -20,8 +20,9 @@ std::vector<std::string> matching_files(const std::string& name);
 
 // Properties of a map that a file may not contain; keys of &surface.
 struct MapKeys {
-    std::string height_unit;      // of its heights, if the file has no units
-    std::optional<double> pixel;  // step between the points of a matrix, instead of L [length_unit]
+    std::string height_unit{};  // of its heights, if the file has no units
+    std::optional<double>
+        pixel{};  // step between the points of a matrix, instead of L [length_unit]
     // Heights that mean a missing point: as text and NetCDF files have them, of instruments' files
     // [length_unit].
     std::vector<double> missing_value = {};
