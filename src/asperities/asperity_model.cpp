@@ -72,8 +72,8 @@ Vector AsperityModel::Impl::alone(const std::vector<std::size_t>& part) {
     return own.v;
 }
 
-// Whether the solution does not depend on the start it was found from: it is unique, or each doubtful
-// part is in the state to which its own cold start leads in the field of the others.
+// Whether the solution does not depend on the start it was found from: it is unique, or each
+// doubtful part is in the state to which its own cold start leads in the field of the others.
 bool AsperityModel::Impl::independent(bool& unique) {
     const auto parts = doubtful();
     unique = parts.empty();

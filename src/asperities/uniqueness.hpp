@@ -33,10 +33,10 @@ bool positive_definite_by_shells(const std::vector<double>& x, const std::vector
 
 // The parts of the contact that may have another solution near the given one (penetrations v,
 // negative: no contact; forces; slopes) of all candidates; none: the solution is unique. Where
-// nothing can be proved the part is all of them. A second solution differs by dF with
-// dF'(B + 1/D')dF = 0, where D' is the secant slope of the law between the two, and its penetrations
-// cannot exceed those without close partners. The shell test with these secants can prove that there
-// is none. If it does not, the box of possible penetrations of a doubtful cluster is bisected, and
+// nothing can be proved the part is all of them. A second solution differs by dF with dF'(B +
+// 1/D')dF = 0, where D' is the secant slope of the law between the two, and its penetrations cannot
+// exceed those without close partners. The shell test with these secants can prove that there is
+// none. If it does not, the box of possible penetrations of a doubtful cluster is bisected, and
 // each part is narrowed by the equation until it is empty or passes the test with its own, smaller
 // secants. The field of more distant contacts is that of the given solution, within a tenth of the
 // possible change by the cluster itself.

@@ -179,9 +179,9 @@ double depth_of_yielding(const Level& level, const HeightMap& map, const Indente
                          double hardness) {
     constexpr double around = 1.25;
     const auto& pressures = level.pixels.pressure;
-    const double hard = double(std::ranges::count_if(
-                     pressures, [&](double pressure) { return pressure >= hardness; })),
-                 points = double(pressures.size());
+    const double points = double(pressures.size());
+    const double hard = double(
+        std::ranges::count_if(pressures, [&](double pressure) { return pressure >= hardness; }));
     std::vector<double> heights;
     for (const int j : indices(map.ny))
         for (const int i : indices(map.nx))
