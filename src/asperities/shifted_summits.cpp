@@ -15,6 +15,7 @@ Tensor curvatures_of(const Asperities& a, std::size_t i) {
 // Maximum of -g'd - d'H d/2 over |d| <= radius for a positive definite H: d = -(H + m)^-1 g, with
 // m = 0 within the range and on its border the m > 0 at which |d| = radius.
 Vec2 highest_within(const Tensor& H, const Vec2& g, double radius) {
+    if (!(radius > 0)) return {};
     const auto at = [&](double m) {
         const double xx = H.xx + m, yy = H.yy + m, determinant = xx * yy - H.xy * H.xy;
         return Vec2{-(yy * g.x - H.xy * g.y) / determinant, -(xx * g.y - H.xy * g.x) / determinant};

@@ -248,10 +248,10 @@ double PeriodicElements::outside() {
     });
 }
 
-// What clipping adds to a block of pixels is taken from the others there, in proportion, so that the
-// mean pressure of the block remains, and with it the long waves of the deflection. Otherwise every
-// change of the set disturbs the waves that take most products, the more of them the wider their
-// range. The products hardly depend on the side of the blocks (4 to 32 pixels).
+// What clipping adds to a block of pixels is taken from the others there, in proportion, so that
+// the mean pressure of the block remains, and with it the long waves of the deflection. Otherwise
+// every change of the set disturbs the waves that take most products, the more of them the wider
+// their range. The products hardly depend on the side of the blocks (4 to 32 pixels).
 void PeriodicElements::clip() {
     const int blocks = (relief_.nx + kBlock - 1) / kBlock;
     parallel_for((relief_.ny + kBlock - 1) / kBlock, 1, threads(), [&](int J) {

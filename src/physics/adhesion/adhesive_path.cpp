@@ -32,7 +32,8 @@ AdhesivePath::AdhesivePath(const Asperities& asperities_, const Indenter& indent
       sticking(*law, options_.physics.of<Adhesion>().work, options_.physics.of<Adhesion>().range),
       direct(make_direct_products(kernel)),
       solver(sticking) {
-    for (std::size_t i = 0; of_difference && i < asperities.size(); ++i) of_difference->shift(i);
+    for (std::size_t i = 0; of_difference && i < asperities.size(); ++i)
+        of_difference->shift_and_prepare(i);
     margin = options.physics.of<Adhesion>().range;
     ranking.assign(asperities, indenter);
 }

@@ -95,7 +95,7 @@ TEST(test_jkr) {
     }
 }
 
-// A sphere of radius 1 with axisymmetric waves A (1 - cos(2 pi r/lambda)) on a half-space of E* = 1,
+// A sphere of radius 1 with axisymmetric waves A (1 - cos(2 pi r/lambda)) on a body of E* = 1,
 // in contact within r < a (Guduru, J. Mech. Phys. Solids 55, 2007). H(a) is the approach without
 // adhesion; at the approach D the edge releases G = (H - D)^2/(2 pi a).
 struct WavySphere {
