@@ -180,6 +180,10 @@ struct Physics {
     const char* (*for_elements)(const Case&) = nullptr;
     // Whether asperities with it were compared with elements (input/trust); null: they were not.
     bool (*calibrated)(const BodyPhysics&, bool layers) = nullptr;
+    // Elements under a prescribed force: how much farther the bodies approach for a force as large
+    // again, beyond the elastic change that follows from the stiffness; NaN: not known. [length]
+    double (*further_approach)(const Level&, const HeightMap&, const Indenter&,
+                               const BodyPhysics&) = nullptr;
     // Throws Error(bad_input) for parameters out of range.
     void (*require_sound)(const BodyPhysics&) = nullptr;
     // Whether a run of asperities may compare some levels with elements of its own accord.

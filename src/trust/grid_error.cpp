@@ -126,9 +126,9 @@ double touch_between_points(const HeightMap& map, const Indenter& indenter) {
     clearances(map, indenter, 0, here);
     double highest = -kInfinity;
     // Body 2 may lie between the points altogether.
-    const double reach =
-        indenter.shape->reach() + (map.ny > 1 ? std::hypot(map.dx, map.dy) : map.dx);
-    if (reach < 3 * (map.ny > 1 ? std::hypot(map.dx, map.dy) : map.dx))
+    const double diagonal = map.ny > 1 ? std::hypot(map.dx, map.dy) : map.dx,
+                 reach = indenter.shape->reach() + diagonal;
+    if (reach < 3 * diagonal)
         for (const int j : indices(map.ny))
             for (const int i : indices(map.nx)) {
                 const Vec2 d = indenter.from_tip(map.x(i), map.y(j));

@@ -2,7 +2,6 @@
 
 #include "base/error.hpp"
 #include "physics/adhesion/sticking.hpp"
-#include "physics/hardness/hardness.hpp"
 #include "physics/physics.hpp"
 #include "surface/form.hpp"
 #include "trust/asperity_error.hpp"
@@ -172,34 +171,6 @@ bool bridges_roughness(const Level& level, const HeightMap& map, double range) {
     }
 }
 
-// How much deeper a body that gives way at its hardness goes for a force as large again, in
-// addition to its elastic change: the area at the hardness grows as that in which the undeformed
-// bodies cross, at the present share of the points.
-double depth_of_yielding(const Level& level, const HeightMap& map, const Indenter& indenter,
-                         double hardness) {
-    constexpr double around = 1.25;
-    const auto& pressures = level.pixels.pressure;
-    const double points = double(pressures.size());
-    const double hard = double(
-        std::ranges::count_if(pressures, [&](double pressure) { return pressure >= hardness; }));
-    std::vector<double> heights;
-    for (const int j : indices(map.ny))
-        for (const int i : indices(map.nx))
-            if (const double z = indenter.clearance(map.x(i), map.y(j), map(i, j));
-                std::isfinite(z))
-                heights.push_back(z);
-    const auto rank = [&](double share) {
-        return std::min(std::size_t(share * points), heights.size() - 1);
-    };
-    const auto height = [&](std::size_t k) {
-        std::ranges::nth_element(heights, heights.begin() + std::ptrdiff_t(k), std::greater());
-        return heights[k];
-    };
-    const std::size_t few = rank(1 / around), many = std::max(few + 1, rank(around));
-    if (many >= heights.size()) return kNotComputed;
-    return hard * (height(few) - height(many)) / double(many - few);
-}
-
 // The errors of the quantities of elements: by the resolution, by the steps of sliding, and the
 // error of N that other causes have.
 void state_errors(Level& level, std::span<const Doubt> doubts, const GridBodies& bodies) {
@@ -287,10 +258,10 @@ std::vector<Doubt> Judge::of_elements(const Level& level, Path& contact, bool by
         (level.cohesive_resolution < kResolved || bridges_roughness(level, *surface_.map, range)))
         doubts.push_back({Cause::adhesion_range});
     doubts.push_back(grid(level, contact));
-    // The stiffness is that of unloading.
-    if (Doubt& few = doubts.back(); by_force && level.plastic_contacts > 0)
-        few.separation = few.force * depth_of_yielding(level, *surface_.map, contact.indenter(),
-                                                       options_.physics.of<Hardness>().H0);
+    for (const Physics* p : physics_asked(options_.physics))
+        if (Doubt& few = doubts.back(); by_force && p->further_approach)
+            few.separation += few.force * p->further_approach(level, *surface_.map,
+                                                              contact.indenter(), options_.physics);
     if (level.with_half_the_steps) {
         const double error = level.sliding_error, depth = contact.first_touch() - level.separation,
                      area_error = std::abs(1 - level.with_half_the_steps->area / level.area);

@@ -374,6 +374,35 @@ void require_sound(const BodyPhysics& bodies) {
         bad_input("solids%size_effect must not be negative");
 }
 
+// The area at the hardness grows as that in which the undeformed bodies cross, at the present share
+// of the points.
+double depth_of_yielding(const Level& level, const HeightMap& map, const Indenter& indenter,
+                         const BodyPhysics& bodies) {
+    if (level.plastic_contacts == 0) return 0;
+    const double hardness = bodies.of<Hardness>().H0;
+    constexpr double around = 1.25;
+    const auto& pressures = level.pixels.pressure;
+    const double points = double(pressures.size());
+    const double hard = double(
+        std::ranges::count_if(pressures, [&](double pressure) { return pressure >= hardness; }));
+    std::vector<double> heights;
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx))
+            if (const double z = indenter.clearance(map.x(i), map.y(j), map(i, j));
+                std::isfinite(z))
+                heights.push_back(z);
+    const auto rank = [&](double share) {
+        return std::min(std::size_t(share * points), heights.size() - 1);
+    };
+    const auto height = [&](std::size_t k) {
+        std::ranges::nth_element(heights, heights.begin() + std::ptrdiff_t(k), std::greater());
+        return heights[k];
+    };
+    const std::size_t few = rank(1 / around), many = std::max(few + 1, rank(around));
+    if (many >= heights.size()) return kNotComputed;
+    return hard * (height(few) - height(many)) / double(many - few);
+}
+
 bool has_size_effect(const Combination& c) { return c.bodies.of<Hardness>().length > 0; }
 
 }  // namespace
@@ -412,6 +441,7 @@ const Physics kHardness = {
                            double radius) { return bodies.of<Hardness>().at(radius); },
     .calibrated = [](const BodyPhysics& bodies,
                      bool layers) { return bodies.of<Hardness>().length == 0 && !layers; },
+    .further_approach = depth_of_yielding,
     .require_sound = require_sound,
     .compares_itself = [](const Case& c) { return !(c.solids.size_effect > 0); },
     .bytes_per_point = 8,  // depths of lowered points
