@@ -25,6 +25,20 @@ inline InstructionSet instruction_set() {
 #endif
 }
 
+// n numbers that an instruction processes together, read or written at the address of any
+// number. Packed, because a reference to a vector type of reduced alignment loses that alignment
+// in clang.
+template <class Real, int n>
+struct [[gnu::packed, gnu::may_alias]] Unaligned {
+    using Vector [[gnu::vector_size(n * sizeof(Real))]] = Real;
+    static constexpr int kCount = n;
+    Vector v;
+    RSC_ALWAYS_INLINE static const Unaligned& at(const Real* p) {
+        return *reinterpret_cast<const Unaligned*>(p);
+    }
+    RSC_ALWAYS_INLINE static Unaligned& at(Real* const p) { return *reinterpret_cast<Unaligned*>(p); }
+};
+
 }  // namespace rsc
 
 #if defined(__x86_64__) && defined(__GNUC__)

@@ -7,31 +7,26 @@
 namespace rsc {
 namespace {
 
-constexpr int kRows = 8;          // that a thread takes at a time
-constexpr std::size_t kWide = 8;  // pixels computed together
+constexpr int kRows = 8;  // that a thread takes at a time
+constexpr int kWide = 8;  // pixels computed together
 
-using Eight = float __attribute__((vector_size(4 * kWide)));
-
-using Unaligned = float __attribute__((vector_size(4 * kWide), aligned(4), may_alias));
-
-RSC_ALWAYS_INLINE const Unaligned& load(const float* from) {
-    return *reinterpret_cast<const Unaligned*>(from);
-}
+using Eight = Unaligned<float, kWide>;
 
 // Values at kWide pixels from the pixel of the middle row at from[0]. A tap multiplies the sum of
 // the four pixels at its offsets.
 RSC_ALWAYS_INLINE void convolve_body(int reach, int beside, const float* taps,
                                      const float* const* rows, std::ptrdiff_t at, float* y) {
     const float* const here = rows[beside] + at;
-    Eight sum = taps[0] * load(here);
-    for (int a = 1; a <= reach; ++a) sum += taps[a] * (load(here - a) + load(here + a));
+    Eight::Vector sum = taps[0] * Eight::at(here).v;
+    for (int a = 1; a <= reach; ++a)
+        sum += taps[a] * (Eight::at(here - a).v + Eight::at(here + a).v);
     for (int b = 1; b <= beside; ++b) {
         const float *const below = rows[beside - b] + at, *const above = rows[beside + b] + at,
                            *const tap = taps + b * (reach + 1);
-        Eight row = tap[0] * (load(below) + load(above));
+        Eight::Vector row = tap[0] * (Eight::at(below).v + Eight::at(above).v);
         for (int a = 1; a <= reach; ++a)
-            row += tap[a] *
-                   ((load(below - a) + load(below + a)) + (load(above - a) + load(above + a)));
+            row += tap[a] * ((Eight::at(below - a).v + Eight::at(below + a).v) +
+                             (Eight::at(above - a).v + Eight::at(above + a).v));
         sum += row;
     }
     __builtin_memcpy(y, &sum, sizeof sum);
@@ -170,8 +165,7 @@ void SparsePlane::convolve(const PixelStencil& stencil, const PixelSet& set, con
                 const int from = set.column[k];
                 float values[kWide];
                 convolve_eight(stencil.reach_, reach, stencil.taps_.data(), rows, from, values);
-                for (; k < set.rows[at(j) + 1] && set.column[k] < from + static_cast<int>(kWide);
-                     ++k)
+                for (; k < set.rows[at(j) + 1] && set.column[k] < from + kWide; ++k)
                     y[k] = values[set.column[k] - from];
             }
         }

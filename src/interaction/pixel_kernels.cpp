@@ -23,18 +23,6 @@ double love(double x, double y, double a, double b) {
 
 namespace {
 
-// Vector of as many doubles (at any address) as an instruction processes; g++ generates slow code
-// for wider ones.
-template <int Bytes>
-struct Lanes {
-    using Vector [[gnu::vector_size(Bytes), gnu::aligned(8), gnu::may_alias]] = double;
-    static constexpr int kCount = Bytes / static_cast<int>(sizeof(double));
-    RSC_ALWAYS_INLINE static const Vector& at(const double* p) {
-        return *reinterpret_cast<const Vector*>(p);
-    }
-    RSC_ALWAYS_INLINE static Vector& at(double* p) { return *reinterpret_cast<Vector*>(p); }
-};
-
 // Processes `Rows` rows at a time, with their sums in registers.
 template <class L, int Rows>
 RSC_ALWAYS_INLINE void near_rows(const NearTable& t, const double* corner, std::size_t n,
@@ -42,16 +30,18 @@ RSC_ALWAYS_INLINE void near_rows(const NearTable& t, const double* corner, std::
     constexpr int parts = kTileColumns / L::kCount;
     typename L::Vector sum[Rows][parts];
     for (int r = 0; r < Rows; ++r)
-        for (int v = 0; v < parts; ++v) sum[r][v] = L::at(sums + r * kTileColumns + v * L::kCount);
+        for (int v = 0; v < parts; ++v)
+            sum[r][v] = L::at(sums + r * kTileColumns + v * L::kCount).v;
     for (std::size_t k = 0; k < n; ++k) {
         const double* row = corner - sources[k].row * t.stride - sources[k].column;
         const double value = sources[k].value;
         for (int r = 0; r < Rows; ++r)
             for (int v = 0; v < parts; ++v)
-                sum[r][v] += value * L::at(row + r * t.stride + v * L::kCount);
+                sum[r][v] += value * L::at(row + r * t.stride + v * L::kCount).v;
     }
     for (int r = 0; r < Rows; ++r)
-        for (int v = 0; v < parts; ++v) L::at(sums + r * kTileColumns + v * L::kCount) = sum[r][v];
+        for (int v = 0; v < parts; ++v)
+            L::at(sums + r * kTileColumns + v * L::kCount).v = sum[r][v];
 }
 
 template <class L, int Rows>
@@ -73,15 +63,15 @@ RSC_ALWAYS_INLINE void slice(int columns, const double* T, const double* const* 
     const double* source[Pairs];
     for (int k = 0; k < Pairs; ++k) {
         source[k] = from[k];
-        for (int v = 0; v < Vectors; ++v) sum[k][v] = L::at(to[k] + first + v * L::kCount);
+        for (int v = 0; v < Vectors; ++v) sum[k][v] = L::at(to[k] + first + v * L::kCount).v;
     }
     for (int j = 0; j < columns; ++j, T += Vectors * L::kCount)
         for (int v = 0; v < Vectors; ++v) {
-            const typename L::Vector part = L::at(T + v * L::kCount);
+            const typename L::Vector part = L::at(T + v * L::kCount).v;
             for (int k = 0; k < Pairs; ++k) sum[k][v] += source[k][j] * part;
         }
     for (int k = 0; k < Pairs; ++k)
-        for (int v = 0; v < Vectors; ++v) L::at(to[k] + first + v * L::kCount) = sum[k][v];
+        for (int v = 0; v < Vectors; ++v) L::at(to[k] + first + v * L::kCount).v = sum[k][v];
 }
 
 template <class L, int Pairs>
@@ -109,11 +99,11 @@ RSC_ALWAYS_INLINE void translate(int rows, int columns, const double* T, std::si
 #define RSC_PIXEL_KERNELS(name, attribute, bytes, near_count, pair_count)                        \
     attribute void near_tile_##name(const NearTable& t, int rows, int ox, int oy, std::size_t n, \
                                     const TileSource* s, double* sums) {                         \
-        near_tile<Lanes<bytes>, near_count>(t, rows, ox, oy, n, s, sums);                        \
+        near_tile<Unaligned<double, (bytes) / 8>, near_count>(t, rows, ox, oy, n, s, sums);      \
     }                                                                                            \
     attribute void translate_##name(int rows, int columns, const double* T, std::size_t n,       \
                                     const double* const* from, double* const* to) {              \
-        translate<Lanes<bytes>, pair_count>(rows, columns, T, n, from, to);                      \
+        translate<Unaligned<double, (bytes) / 8>, pair_count>(rows, columns, T, n, from, to);    \
     }                                                                                            \
     constexpr PixelKernels kernels_##name = {near_tile_##name, translate_##name};
 

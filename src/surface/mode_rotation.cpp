@@ -9,12 +9,11 @@ namespace {
 constexpr int kBatch = kRotatedModes;
 
 // Eight sums at a time. Arrays of lanes would stay in memory.
-using Eight [[gnu::vector_size(32), gnu::aligned(4), gnu::may_alias]] = float;
+using Eight = Unaligned<float, 8>::Vector;
 RSC_ALWAYS_INLINE void add_powers_body(const float* z, std::ptrdiff_t count, double* total) {
     Eight second = {}, third = {}, fourth = {}, second2 = {}, third2 = {}, fourth2 = {};
     for (std::ptrdiff_t i = 0; i < count; i += 16) {
-        const Eight a = reinterpret_cast<const Eight&>(z[i]),
-                    b = reinterpret_cast<const Eight&>(z[i + 8]);
+        const Eight a = Unaligned<float, 8>::at(z + i).v, b = Unaligned<float, 8>::at(z + i + 8).v;
         const Eight a2 = a * a, b2 = b * b;
         second += a2;
         third += a * a2;
@@ -53,18 +52,18 @@ RSC_ALWAYS_INLINE void add_rotated_body(const float* x, const float* y, const fl
                                         double* total) {
     alignas(64) float tangent[kBatch], cosine[kBatch];
     angles(x, y, inverse, p, q, tangent, cosine);
-    const auto at = [](const float* numbers, int m) -> const Eight& {
-        return reinterpret_cast<const Eight&>(numbers[m]);
+    const auto at = [](const float* numbers, int m) -> const auto& {
+        return Unaligned<float, 8>::at(numbers + m);
     };
     Eight xx = {}, xy = {}, yy = {}, lost_u = {}, lost_v = {};
     for (int m = 0; m < kBatch; m += 8) {
-        const Eight weight = at(cosine, m) * at(inverse, m), wx = weight * at(x, m),
-                    lost = 1 - at(cosine, m);
-        xx += wx * at(x, m);
-        xy += wx * at(y, m);
-        yy += weight * at(y, m) * at(y, m);
-        lost_u += lost * at(u, m);
-        lost_v += lost * at(v, m);
+        const Eight weight = at(cosine, m).v * at(inverse, m).v, wx = weight * at(x, m).v,
+                    lost = 1 - at(cosine, m).v;
+        xx += wx * at(x, m).v;
+        xy += wx * at(y, m).v;
+        yy += weight * at(y, m).v * at(y, m).v;
+        lost_u += lost * at(u, m).v;
+        lost_v += lost * at(v, m).v;
     }
     for (int l = 0; l < 8; ++l) {
         total[0] += xx[l];
