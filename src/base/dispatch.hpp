@@ -36,7 +36,9 @@ struct [[gnu::packed, gnu::may_alias]] Unaligned {
     RSC_ALWAYS_INLINE static const Unaligned& at(const Real* p) {
         return *reinterpret_cast<const Unaligned*>(p);
     }
-    RSC_ALWAYS_INLINE static Unaligned& at(Real* const p) { return *reinterpret_cast<Unaligned*>(p); }
+    RSC_ALWAYS_INLINE static Unaligned& at(Real* const p) {
+        return *reinterpret_cast<Unaligned*>(p);
+    }
 };
 
 }  // namespace rsc
