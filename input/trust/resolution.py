@@ -20,7 +20,9 @@ number of contacts, and of c border_runs, the part by the straight parts of thes
 which is known to half a pixel. The powers, the ratio of c to k and the factor of measured heights
 are those of a grid of values for which the median of stated over true error is smallest, where k is
 such that ALL levels and EACH kind are within; punches and cones, and yielding contacts, have a
-factor each. Bodies are determined by their
+factor each, which is 0 where they have no error (the largest pressure of a yielding contact is the
+hardness). Near full contact of two flats, border_share is that of the gaps, and the error of an
+area is taken relative to theirs. Bodies are determined by their
 number: rough balls, flats and rollers, smooth bodies, maps of few points a wave (free and flat),
 maps as instruments give them (means over cells, rounded), yielding and worn bodies, and punches; a
 third has other units, and maps have even and odd numbers of points. Needs numpy and netCDF4."""
@@ -63,6 +65,7 @@ QUANTITIES = {
     "pressure_max": ("wear_depth_max",),  # the depth is the integral of the pressure of a point
     "gap_mean": (),
 }
+AREAS = "contact_area", "contact_area_pixels"
 CHECKED = (*QUANTITIES, "permeability", "wear_depth_max")
 GRID = 1 << 2  # bit of the doubt
 
@@ -294,6 +297,8 @@ class Row:
         self.share, self.runs, self.contacts = (
             a[name][0] for name in ("border_share", "border_runs", "contacts")
         )
+        fraction = a.get("area_fraction", [0])[0]
+        self.over_gap = fraction / (1 - fraction) if 0.5 < fraction < 1 else 1
         self.true, self.stated = {}, {}
         for name in CHECKED:
             if name in a and name in t and t[name][0] != 0:
@@ -397,9 +402,16 @@ class Fit:
         self.over, self.k, self.choice = min(found)
         over = errors / (self.k * shape(*self.choice))
         self.edged, self.yielding = (
-            max(1.0, np.quantile(over[some], EACH)) if np.any(some) else 1.0
-            for some in (levels.edged, levels.yields)
+            self.factor(over[some]) for some in (levels.edged, levels.yields)
         )
+
+    @staticmethod
+    def factor(over):
+        """Of a class of bodies with these errors over those of the others."""
+        if over.size == 0:
+            return 1.0
+        most = np.quantile(over, EACH)
+        return max(1.0, most) if most > 1e-6 else 0.0
 
     def stated(self, levels, shape):
         return (
@@ -436,20 +448,23 @@ def fit(o):
     lines = ["inline constexpr ResolutionError kResolutionErrors[] = {"]
     for name, others in QUANTITIES.items():
         mine, held = halves(rows, lambda r: np.isfinite(r.true.get(name, np.nan)))
-        errors = np.array([r.true[name] for r in mine])
+        true = lambda r: r.true[name] * (r.over_gap if name in AREAS else 1)
+        errors = np.array([true(r) for r in mine])
         of = Levels(mine)
         found = Fit(of, errors, of.shape, POWERS, AVERAGING, RUNS, MEASURED)
         of = Levels(held)
         report(
             f"{name}: {found}",
-            list(zip(held, found.stated(of, of.shape), (r.true[name] for r in held))),
+            list(zip(held, found.stated(of, of.shape), map(true, held))),
         )
         power, averaging, runs, _ = found.choice
         for each in (name, *others):
             lines.append(
                 "    "
                 + braces(
-                    f'"{each}"', found.k, power, averaging, found.k * runs, found.factors()
+                    f'"{each}"',
+                    *(found.k, power, averaging, found.k * runs, found.factors()),
+                    *(["true"] if name in AREAS else []),
                 )
                 + ","
             )

@@ -99,7 +99,7 @@ class Table:
             status = np.atleast_2d(np.ma.filled(variables["status"][:], NOT_CONVERGED)).astype(int)
             good = status != NOT_CONVERGED
             self.status = np.take_along_axis(status, GRAVITY[status].argmax(axis=0)[None], 0)[0]
-            self.columns, self.units = {}, {}
+            self.columns, self.units, self.counts = {}, {}, set()
             load = "pressure" if "pressure" in variables else "force"
             for name in dict.fromkeys([load, "separation", *names] if names else COLUMNS):
                 variable = NEGATED.get(name, name)
@@ -147,6 +147,8 @@ class Table:
             else:
                 mean, stderr = _mean(values)
                 self._add(column, mean, unit)
+                if variable.dtype.kind in "iu" and not many:
+                    self.counts.add(column)
                 if many and (stderr > 1e-9 * abs(mean)).any():  # not a prescribed load
                     self._add(column + "_stderr", stderr, unit)
             for error, error_unit in errors:
@@ -188,7 +190,7 @@ class Table:
         load, depth = self.columns[self.load], -self.columns["separation"]
         levels = [k for k in range(load.size) if load[k] > 0 and np.isfinite(depth[k])]
         if not self.remembers:
-            levels.sort(key=lambda k: depth[k])
+            levels.sort(key=lambda k: load[k])
         kept = []
         for k in levels:
             if (
@@ -208,7 +210,8 @@ class Table:
         """The table at these values of the load, or of the separation, as (columns, words of the
         status). Between levels positive quantities follow a power law of the load (of the
         separation: an exponential), others a straight line in its logarithm; interpolated values
-        are between those of the two neighbours, and increasing quantities remain increasing."""
+        are between those of the two neighbours, and increasing quantities remain increasing;
+        counts are rounded."""
         by = by or self.load
         levels = self.loading(by)
         known = self.columns[by][levels]
@@ -226,11 +229,14 @@ class Table:
         columns = {}
         for name, values in self.columns.items():
             a, b = values[levels][right - 1], values[levels][right]
-            power = (a > 0) & (b > 0)
+            rounding = 1e-12 * np.nanmax(np.abs(values), initial=0)  # not of a closed gap, 0
+            power = (a > rounding) & (b > rounding)
             safe_a, safe_b = np.where(power, a, 1.0), np.where(power, b, 1.0)
             between = np.where(power, safe_a * (safe_b / safe_a) ** share, a + share * (b - a))
             if name.startswith(OPEN):  # between an open and a closed gap nothing is known
                 between = np.where((a > 0) == (b > 0), between, np.nan)
+            if name in self.counts:
+                between = np.round(between)
             columns[name] = np.where(share == 0, a, np.where(share == 1, b, between))
         columns[by] = wanted
         used = [

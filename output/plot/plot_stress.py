@@ -21,9 +21,9 @@ def _level(result, options):
     return int(there[-1]) if there.size else None
 
 
-def hertz_axis(z, N, R, E, nu):
-    """von Mises's stress under the centre of a smooth ball, twice the shear stress there (Johnson
-    1985, section 3.4)."""
+def ball_axis(z, N, R, E, nu):
+    """von Mises's stress under the centre of a smooth ball, and the largest shear stress there
+    (Johnson 1985, section 3.4)."""
     a = (0.75 * N * R / E) ** (1 / 3)
     p0 = 1.5 * N / (np.pi * a**2)
     t = z / a
@@ -31,12 +31,40 @@ def hertz_axis(z, N, R, E, nu):
         angle = np.where(t > 0, t * np.arctan(1 / np.where(t > 0, t, 1)), 0)
     axial = -1 / (1 + t**2)
     radial = -(1 + nu) * (1 - angle) + 0.5 / (1 + t**2)
-    return p0 * np.abs(radial - axial)
+    mises = p0 * np.abs(radial - axial)
+    return mises, mises / 2
+
+
+def cylinder_axis(z, load, half_width, nu):
+    """The same under the middle of a smooth cylinder with this load per length, in plane strain
+    (Johnson 1985, section 4.2)."""
+    p0 = 2 * load / (np.pi * half_width)
+    t = z / half_width
+    root = np.sqrt(1 + t**2)
+    across, down = 2 * t - (1 + 2 * t**2) / root, -1 / root
+    along = nu * (across + down)
+    mises = np.sqrt(((across - down) ** 2 + (down - along) ** 2 + (along - across) ** 2) / 2)
+    return p0 * mises, p0 * np.ptp([across, down, along], axis=0) / 2
+
+
+def smooth_axis(result, step, z):
+    """These stresses under the smooth indenter of the same load, and its name; None if there is no
+    closed form."""
+    R, N = float(result["r_star"]), result.mean("force")[step]
+    nu = float(result.case["solids%nu"].split(",")[0])
+    if not N > 0:
+        return None
+    if np.isfinite(half_width := result.half_width(step)):
+        load = result.mean("force_per_length")[step]
+        return (*cylinder_axis(z, load, half_width, nu), "cylinder")
+    if np.isfinite(R) and R < 1e27:
+        return (*ball_axis(z, N, R, float(result["e_star"]), nu), "ball")
+    return None
 
 
 def stress(results, options):
-    """The largest stresses at each depth at one level, beside those under a smooth ball of the same
-    load."""
+    """The largest stresses at each depth at one level, beside those under a smooth ball or cylinder of
+    the same load."""
     results = [r for r in results if "mises_max" in r]
     if len(results) != 1:
         return None
@@ -59,14 +87,11 @@ def stress(results, options):
                 looks = dict(color=colour, alpha=0.15, lw=0)
                 axis.fill_betweenx(z, np.maximum(values - off, 0), values + off, **looks)
                 page.entry("expected error of the model", color="0.7", lw=5)
-    R, N = float(result["r_star"]), result.mean("force")[step]
-    if np.isfinite(R) and R < 1e27 and N > 0:
-        nu = float(result.case["solids%nu"].split(",")[0])
-        fine = np.linspace(0, z[-1], 400)
-        smooth = hertz_axis(fine, N, R, float(result["e_star"]), nu)
-        _, line, colour = STYLES[0]
-        for values, name, c in ((smooth, "von Mises", colour), (smooth / 2, "shear", STYLES[1][2])):
-            axis.plot(values, fine, ":", color=c, label=f"{name}, axis of a smooth ball")
+    fine = np.linspace(0, z[-1], 400)
+    if smooth := smooth_axis(result, step, fine):
+        *both, body = smooth
+        for values, (_, name), (_, _, colour) in zip(both, KINDS, STYLES):
+            axis.plot(values, fine, ":", color=colour, label=f"{name}, axis of a smooth {body}")
     axis.set_yscale("symlog", linthresh=z[z > 0].min() if (z > 0).any() else 1, linscale=0.4)
     axis.set_ylim(z[-1], 0)
     axis.set_xlim(0, 1.05 * top)

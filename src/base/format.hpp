@@ -18,6 +18,12 @@ namespace rsc {
 // A number in a message.
 inline std::string text_of(double value) { return format("%.9g", value); }
 
+// A share in percent with two digits, and without exponent: "0.015 %", "4.2 %", "120 %".
+inline std::string percent(double share) {
+    if (std::abs(share) > 10) return "more than 1000 %";
+    return format(std::abs(share) < 0.995 ? "%.2g %%" : "%.0f %%", 100 * share);
+}
+
 template <class Part>
 void append_part(std::string& text, const Part& part) {
     if constexpr (std::is_floating_point_v<Part>)

@@ -442,6 +442,13 @@ std::string names_of_quantities() {
     return names;
 }
 
+double error_of_least_force(std::span<const LevelValues> levels) {
+    const auto least = std::ranges::min_element(levels, {}, [](const LevelValues& level) {
+        return std::isnan(level.force) ? kInfinity : level.force;
+    });
+    return least == levels.end() ? kNotComputed : least->force_error_expected;
+}
+
 void compute_quantities(LevelSource& source, const Case* run) {
     if (std::isnan(source.level.force)) return;  // there is no state
     for (const LevelQuantity& q : level_quantities())

@@ -107,6 +107,10 @@ struct QuantityComponent {
 std::optional<QuantityComponent> find_quantity(std::string_view name);
 std::string names_of_quantities();  // separated by commas
 
+// Expected relative error of the smallest force of a realization: that of N at the level of the
+// smallest N. NaN: none is stated.
+double error_of_least_force(std::span<const LevelValues> levels);
+
 // Computes the quantities of a level that no case needs to ask for, and in a run also those that
 // its case asks for.
 void compute_quantities(LevelSource& source, const Case* run = nullptr);

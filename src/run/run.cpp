@@ -75,6 +75,8 @@ static LevelValues mean_of(const Observations& o, std::size_t step) {
                     ++count;
                 }
             if (!q.integer()) q.put(mean, count > 0 ? sum / count : kNotComputed, c);
+            mean.errors[q.slot + c] =
+                o.realizations == 1 ? q.error(o.row(0, step), c) : kNotComputed;
         }
     return mean;
 }
@@ -92,6 +94,7 @@ RunSummary summary_of(const Result& result) {
     if (o.steps == 0) return summary;
     summary.first = mean_of(o, 0);
     summary.last = mean_of(o, o.steps - 1);
+    if (o.realizations == 1) summary.least_force_error = error_of_least_force(o.rows);
     return summary;
 }
 

@@ -30,6 +30,7 @@ struct RunSummary {
     std::int32_t doubts = 0;  // all of these (trust/doubts.hpp)
     // Means over the realizations at the first and the last level.
     LevelValues first = {}, last = {};
+    double least_force_error = kNotComputed;  // expected, relative; of a single realization
 };
 
 // The files that a case reads: heights, spectrum or asperities of the surface, and the map of the

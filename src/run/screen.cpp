@@ -39,13 +39,13 @@ bool in_sigma(const Job& job) {
     return job.settings.indentation.control == Control::separation || job.indenter.period.finite();
 }
 
-}  // namespace
-
-std::string percent(double share) {
-    return std::abs(share) > 10
-               ? "more than 1000 %"
-               : format(std::abs(share) < 0.995 ? "%.2g %%" : "%.0f %%", 100 * share);
+// The column of Z0/sigma; a closed gap is 0 but for rounding, whose sign is not shown.
+std::string in_rms_heights(double separation, const Job& job) {
+    const double z = separation / job.sigma;
+    return format(" %9.5f", std::abs(z) < 5e-6 ? 0.0 : z);
 }
+
+}  // namespace
 
 double pascals(const Case& settings) {
     const auto& run = settings.run;
@@ -257,7 +257,7 @@ static std::string outcome_of(const LevelValues& level) {
 
 void print_level(std::ostream& out, const Job& job, std::size_t number, const Level& level) {
     out << format("%5zu %12.6g", number + 1, level.separation);
-    if (in_sigma(job)) out << format(" %9.5f", level.separation / job.sigma);
+    if (in_sigma(job)) out << in_rms_heights(level.separation, job);
     for (const LevelQuantity& q : level_quantities()) {
         if (!shown(q, job)) continue;
         if (std::holds_alternative<LevelStatus LevelValues::*>(q.member))
@@ -464,7 +464,7 @@ void print_campaign_summary(std::ostream& out, const Job& job, const Observation
     for (const std::size_t s : shown_steps(o.steps)) {
         out << format("%5zu", s + 1);
         if (!prescribed) out << format(" %12.6g", o.separation.mean[s]);
-        if (in_sigma(job)) out << format(" %9.5f", o.separation.mean[s] / job.sigma);
+        if (in_sigma(job)) out << in_rms_heights(o.separation.mean[s], job);
         out << with_scatter(job, o, s) << '\n';
     }
 

@@ -50,9 +50,6 @@ std::string program_command();
 // One unit of pressure of a case in Pa; 0: its units are not known.
 double pascals(const Case& settings);
 
-// A share in percent with two digits, and without exponent: "0.015 %", "4.2 %", "120 %".
-std::string percent(double share);
-
 // "12.3 s", "4 min 10 s", ...
 std::string duration(double seconds);
 

@@ -226,14 +226,22 @@ void look_at_all(const ReadCase& read, const std::vector<Member>& all,
     }
 }
 
+// " +- 3 %", of an expected relative error; "" if none is stated.
+std::string with_error(double relative) { return relative > 0 ? " +- " + percent(relative) : ""; }
+
 // What a case asked for at its last level: N, A and Z0, and the quantities of its physics; those
 // that have changed since the first level as "first to last". Each ends with "; ".
 std::string answers_of(const Case& settings, const RunSummary& summary) {
     const Case::Run& run = settings.run;
     const auto &l = run.length_unit, &f = run.force_unit;
     const LevelValues& last = summary.last;
-    std::string text = format("N = %.6g %s, A = %.6g %s2 at Z0 = %.6g %s; ", last.force, f.c_str(),
-                              last.area, l.c_str(), last.separation, l.c_str());
+    std::string text =
+        format("N = %.6g %s%s, A = %.6g %s2%s at Z0 = %.6g %s", last.force, f.c_str(),
+               with_error(last.force_error_expected).c_str(), last.area, l.c_str(),
+               with_error(last.area_error_expected).c_str(), last.separation, l.c_str());
+    if (const double error = last.separation_error_expected; error > 0)
+        text += format(" +- %.2g %s", error, l.c_str());
+    text += "; ";
     for (const LevelQuantity& q : level_quantities()) {
         const double value = q.of(last), first = q.of(summary.first);
         if (std::isnan(value) || !(q.answers || q.least)) continue;
@@ -244,7 +252,8 @@ std::string answers_of(const Case& settings, const RunSummary& summary) {
             text += q.plain + (first != 0 && first != value && !std::isnan(first)
                                    ? format(" %.4g to %.4g", first, value)
                                    : format(" %.4g", value));
-        text += (unit == "1" ? "" : " " + unit) + "; ";
+        text += (unit == "1" ? "" : " " + unit) +
+                with_error(q.least ? summary.least_force_error : q.error(last)) + "; ";
     }
     if (summary.doubtful > 0)
         text += format("%ld of %ld levels in doubt: ", summary.doubtful, summary.levels) +

@@ -16,6 +16,8 @@ constexpr double kEdgeShare = 0.17;
 // 0.35 q where contacts are wide (small q), and three times as much just after first touch (large
 // q). That of A is 0.8 sqrt(q): the width of a contact in points is proportional to 1/sqrt(q).
 constexpr double kCrest = 0.35, kCrestArea = 0.8;
+// Straight borders are known to half a pixel, often alike on many ridges.
+constexpr double kStraight = 0.25;
 
 // Contacts whose straight borders are longer than this number of their widths lie on crests. Those
 // of summits are rounder, and their errors need no crests (input/trust/resolution.py).
@@ -62,6 +64,13 @@ double crest_height(const HeightMap& map, const Indenter& indenter,
     return ridge > 0 && std::isfinite(ridge) ? ridge : 0.0;
 }
 
+// Errors of an area of two flats are relative to that of the contact, or of the gap if it is the
+// smaller one: the area of the gap over that of the contact.
+double of_smaller_area(const LevelValues& level) {
+    const double f = level.area_fraction;  // NaN: not two flats
+    return f > 0.5 ? (1 - f) / f : 1;
+}
+
 }  // namespace
 
 GridBodies grid_bodies(bool measured, const Indenter& indenter) {
@@ -77,7 +86,7 @@ double error_of_resolution(const LevelQuantity& quantity, std::size_t component,
     const double by_share = found->factor * std::pow(level.border_share, found->power) *
                             std::pow(level.contacts, -found->averaging);
     return std::hypot(by_share, found->of_runs * level.border_runs) *
-           found->factors.of(level, bodies);
+           found->factors.of(level, bodies) * (found->area ? of_smaller_area(level) : 1.0);
 }
 
 void state_curve_errors(std::span<double> curves, std::span<const AskedCurves> asked, double step,
@@ -113,9 +122,10 @@ GridError error_of_crests(const Level& level, double stiffness, const HeightMap&
                 crest_height(map, indenter, curvature, level.asperity[c] % map.nx,
                              level.asperity[c] / map.nx);
     const double share = mean * -stiffness / level.force;
-    return share > 0 ? GridError{kCrest * share * (1 + 2 * share / (1 + share)),
-                                 kCrestArea * std::sqrt(share)}
-                     : GridError{};
+    if (!(share > 0)) return {};
+    return {
+        kCrest * share * (1 + 2 * share / (1 + share)),
+        (kCrestArea * std::sqrt(share) + kStraight * level.border_share) * of_smaller_area(level)};
 }
 
 double touch_between_points(const HeightMap& map, const Indenter& indenter) {

@@ -311,9 +311,7 @@ Doubt Judge::grid(const Level& level, Path& contact) const {
     const double stiffness = std::isnan(level.stiffness) ? contact.stiffness() : level.stiffness;
     const GridError crests = error_of_crests(level, stiffness, map, indenter, surface_.curvature);
     doubt.force = std::max(by_size.force, crests.force);
-    // The borders of straight ridges are known to half a pixel, often alike on many of them.
-    doubt.area =
-        crests.area > by_size.area ? crests.area + 0.25 * level.border_share : by_size.area;
+    doubt.area = std::max(by_size.area, crests.area);
     doubt.serious = doubt.force > kUnresolved || doubt.area > kMuchAreaError;
     return doubt;
 }

@@ -178,6 +178,56 @@ std::vector<Level> pressed(Case c, ModelKind model) {
     return realize(prepare(c), 1, 1).levels;
 }
 
+// A wave of one direction between flats (Westergaard: A/A0 = (2/pi) asin sqrt s, s = p/p*): up to
+// full contact the stated error of A holds on nine of ten levels, and it vanishes with the gap.
+TEST(near_full_contact) {
+    const Folder folder;
+    constexpr double Delta = 1e-3;
+    int all = 0, within = 0;
+    for (const int n : {16, 33, 64}) {
+        Case c = case_of_map(folder.write("wave.txt", rows_of_text(n, n, [n](int i, int) {
+                                              return Delta * std::cos(2 * pi * i / n);
+                                          })));
+        c.surface.L = 1.0;
+        c.solids.R[0] = c.solids.R[1] = kInfinity;
+        c.indentation.boundary = Boundary::periodic;
+        c.indentation.unit = LevelUnit::length;
+        const double shares[] = {0.8, 0.9, 0.95, 0.99};
+        for (const double s : shares)
+            c.indentation.levels.push_back(Delta * (1 - s + s * std::log(s)));
+        const std::vector<Level> levels = pressed(c, ModelKind::elements);
+        for (const auto k : indices(levels)) {
+            const double width = 2 / pi * std::asin(std::sqrt(shares[k])),
+                         error = levels[k].area_error_expected;
+            ++all;
+            within += std::abs(levels[k].area / width - 1) <= error;
+            constexpr double kTimes = 2;  // a gap of one pixel is known within its double
+            CHECK(levels[k].area * error <= kTimes * (1 - levels[k].area));
+        }
+    }
+    CHECK(all == 12 && 10 * within >= 9 * all);
+}
+
+// Where a contact yields its largest pressure is the hardness, which has no error of the grid.
+TEST(largest_pressure_of_yielding) {
+    const Folder folder;
+    Case c = case_of_map(folder.write(
+        "flat.txt", rows_of_text(24, 24, [](int i, int j) { return (i + j) % 2 ? 1e-9 : -1e-9; })));
+    c.surface.L = 24.0;
+    c.indentation.unit = LevelUnit::length;
+    c.indentation.levels = {-0.2};
+    c.solids.R[1] = 200;
+    const auto error = [](const Level& level) {
+        return find_quantity("pressure_max")->error(level);
+    };
+    const Level elastic = pressed(c, ModelKind::elements).front();
+    CHECK(error(elastic) > 0);
+    c.solids.hardness = 0.8 * elastic.pressure_max;
+    const Level level = pressed(c, ModelKind::elements).front();
+    CHECK_RELATIVE(level.pressure_max, c.solids.hardness, kRounding);
+    CHECK(level.plastic_contacts > 0 && error(level) == 0);
+}
+
 // Errors add up; one that is not known makes their sum unknown. Serious doubts alone raise the
 // status, which says the gravest thing.
 TEST(doubts_combined_once) {

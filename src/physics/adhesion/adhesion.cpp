@@ -1,6 +1,7 @@
 #include "physics/adhesion/adhesion.hpp"
 
 #include "base/error.hpp"
+#include "base/format.hpp"
 #include "elements/element_model.hpp"
 #include "elements/pixel_spots.hpp"
 #include "physics/adhesion/adhesive_contact.hpp"
@@ -139,10 +140,12 @@ void print_sticking(std::ostream& out, const RunFacts& run) {
         out << "  adhesion: the smallest force is not known, because levels have no state.\n";
     else if (units.realizations == 1) {
         const bool apart = levels.back().contacts == 0;
+        const double error = least < 0 ? error_of_least_force(levels) : kNotComputed;
         out << format(
-            "  adhesion: the smallest force is %.4g %s%s; the bodies are %s at the last level; "
+            "  adhesion: the smallest force is %.4g %s%s%s; the bodies are %s at the last level; "
             "jumps: %ld, energy lost: %.4g %s %s%s. Results depend on the loading history.\n",
             least, units.force_unit.c_str(),
+            error > 0 ? joined(" +- ", percent(error)).c_str() : "",
             smallest ? (" up to " + run.place_of(*smallest)).c_str() : "",
             apart ? "separated" : "still attached", jumps, lost, units.force_unit.c_str(),
             units.length_unit.c_str(), how.c_str());

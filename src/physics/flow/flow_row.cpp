@@ -235,7 +235,11 @@ void print_gap(std::ostream& out, const RunFacts& run) {
     };
     out << format("  gap: open across the cell along x at %zu of %zu levels", at(count),
                   run.levels.size());
-    if (most) out << ", up to " << load(*most);
+    if (most) {
+        const double error = permeability_error(*most, 0);
+        out << ", up to " << load(*most) << (error > 0 ? ", where K is known to +- " : "")
+            << (error > 0 ? percent(error) : ", where no error of K is stated");
+    }
     if (least) out << "; closed at " << load(*least) << " and above";
     out << '\n';
     if (leak_asked(run.settings)) return;

@@ -121,6 +121,24 @@ class Tables(InFolder):
             read.at([2.0, 50.0])[0]["contact_area"], 0.3 * np.array([2.0, 50.0]) ** 0.9, rtol=1e-12
         )
 
+    def test_counts_are_whole(self):
+        path = result(self.folder, "counts")
+        with netCDF4.Dataset(path, "a") as file:
+            file.createVariable("contacts", "i8", ("realization", "step"))[:] = [[3, 4, 9, 20]]
+        columns, _ = table.Table(path).at([2.0, 5.0, 20.0])
+        np.testing.assert_array_equal(columns["contacts"], np.round(columns["contacts"]))
+        self.assertTrue(np.all(np.diff(columns["contacts"]) >= 0))
+
+    def test_a_closed_gap_is_no_power_law(self):
+        """The rounding of separations of 0 neither hides levels nor spoils those between."""
+        closed = np.array([0.3, 0.9, 1.0, 1.0])
+        path = result(self.folder, "closed", (0,) * 4, area=closed)
+        with netCDF4.Dataset(path, "a") as file:
+            file["separation"][:] = [1e-3, 1e-4, 1.1e-20, 1.3e-20]
+        columns, _ = table.Table(path).at([0.5 * (FORCE[1] + FORCE[2]), FORCE[2] + 1])
+        self.assertGreater(columns["separation"][0], 1e-6)
+        self.assertEqual(columns["contact_area"][1], 1)
+
     def test_standard_error_over_the_realizations_that_converged(self):
         area = np.random.default_rng(3).uniform(1, 2, (6, 4))
         status = np.zeros((6, 4))
