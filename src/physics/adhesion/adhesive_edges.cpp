@@ -13,6 +13,8 @@ constexpr double kRelaxed = 2, kMomentum = 0.5;
 constexpr double kLeast = 0.3;  // of a share that remains after a round
 // Error of gaps of touching pixels relative to u0 and to the change of the shares.
 constexpr double kEarly = 0.3, kFinal = 0.1;
+// Residual relative to that of the last product in full accuracy, at which another one is due.
+constexpr double kDrift = 0.03;
 constexpr int kMostSteps = 60;            // of conjugate gradients in a round
 constexpr double kPenetration = 1e-3;     // relative to u0: of points apart from other contacts
 constexpr double kStiffnessError = 1e-9;  // of the residual
@@ -191,7 +193,7 @@ AdhesiveEdges::Outcome AdhesiveEdges::balance(const std::vector<double>& clearan
                                               double tolerance) {
     Outcome outcome;
     for (const auto k : indices(pixels_)) overlap_[k] = clearance[at(map_.place(pixels_[k]))] - Z;
-    double worst = 1;
+    double worst = 1, at_exact = 0;
     bool exact = true;
     for (; outcome.rounds < kMost; ++outcome.rounds) {
         stopping_point();
@@ -214,15 +216,13 @@ AdhesiveEdges::Outcome AdhesiveEdges::balance(const std::vector<double>& clearan
         worst = 0;
         for (const auto k : indices(share_)) worst = std::max(worst, std::abs(change(k)));
         outcome.residual = std::max(worst, open() / u0_);
-        if (outcome.residual <= tolerance) {
-            if (sound) {
-                outcome.converged = true;
-                return outcome;
-            }
-            exact = true;
-            continue;
+        if (outcome.residual <= tolerance && sound) {
+            outcome.converged = true;
+            return outcome;
         }
-        exact = false;
+        if (exact) at_exact = outcome.residual;
+        exact = outcome.residual <= std::max(tolerance, kDrift * at_exact);
+        if (exact) continue;
         if (advance(tolerance)) {
             outcome.wider = true;
             return outcome;
