@@ -229,7 +229,10 @@ const Physics kAdhesion = {
                   [](const Combination& c) { return c.method == Method::dgesv; }},
                  {"indentation%selection", "asperities beyond the circle of 'paper' attract, too",
                   [](const Combination& c) { return c.selection == Selection::paper; }},
-                 {"indentation%boundary", "", [](const Combination& c) { return c.line; }}},
+                 {"indentation%boundary",
+                  "the edges of adhesive contacts are followed on bodies of finite size and "
+                  "between two flats, not along a line",
+                  [](const Combination& c) { return c.line; }}},
     .check = check_adhesion,
     .needs_asperities = why_asperities_adhere,
     .path = "attached spots (solids adhesion) remain attached until pull-off",

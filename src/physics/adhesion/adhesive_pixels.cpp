@@ -12,6 +12,8 @@ namespace {
 
 // Smallest ratio of the cohesive length to the side of a pixel, and that of accurate forces.
 constexpr double kCoarsest = 0.5, kFine = 4;
+// Without a range: largest side of a pixel over the thickness of a layer.
+constexpr double kOfLayer = 0.5;
 // Energy that a step between separations may seem to lose, relative to w times the area that
 // attracts: if it seems to lose more, it contains a jump or its trapezoidal work is not accurate,
 // and it is divided until it is this share of a level's way.
@@ -26,8 +28,9 @@ constexpr double kFinest = 1e-9;      // smallest tolerance
 constexpr double kSettled = 0.3;      // last change of the attraction relative to the tolerance
 constexpr double kProductError = 0.3;  // error of products relative to that of pressures
 constexpr int kMost = 2000;            // renewals of the attraction
-// Change of shares at edges, in pixels, relative to the tolerance of forces.
-constexpr double kEdgeTolerance = 10;
+// Change of shares at edges relative to the tolerance of forces. With 1, a force differs by more
+// than its tolerance when a level is repeated in 1 of 400 levels, so that no state has a given one.
+constexpr double kEdgeTolerance = 0.3;
 constexpr double kPenetration = 1e-3;  // relative to z0: of points apart from contacts
 // Longest piece of a way of the tip: change of the clearances of attracting points relative to z0,
 // and number of pixel sides.
@@ -154,6 +157,22 @@ void require_resolved(double E_star, const Adhesion& adhesion, double step) {
                adhesion.range, resolution, kFine / resolution, wanted * adhesion.range));
 }
 
+namespace {
+
+// The edge of a contact releases the energy of the top layer only between pixels that are small
+// beside the layers.
+void require_resolved_layers(const LayeredBody& body, double step) {
+    for (std::int64_t k = 0; k < body.count; ++k)
+        if (const double thickness = body.layer[at(k)].thickness; !(step <= kOfLayer * thickness))
+            bad_input(
+                format("solids%%adhesion_range = 0: elements of side %.3g need layers that are at "
+                       "least twice as thick, not solids%%layer_thickness = %.3g: give more points "
+                       "a side, or a range",
+                       step, thickness));
+}
+
+}  // namespace
+
 AdhesivePixels::AdhesivePixels(const HeightMap& heights_, const Indenter& indenter_,
                                const SolverOptions& options_)
     : CutMap(heights_),
@@ -168,6 +187,7 @@ AdhesivePixels::AdhesivePixels(const HeightMap& heights_, const Indenter& indent
         z0 = range;
         s0 = work / range;
     } else {
+        require_resolved_layers(indenter.layers, heights.step());
         const double row = AdhesiveEdges::kRow * std::sqrt(pixel) / body.modulus();
         s0 = std::sqrt(2 * work / row);
         z0 = 2 * work / s0;

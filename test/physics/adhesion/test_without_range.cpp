@@ -1,5 +1,6 @@
 // Elements that attract without a range (physics/adhesion/adhesive_edges.hpp), against Johnson,
 // Kendall and Roberts's sphere, Johnson's wave between flats, and a slow minimiser.
+#include "base/error.hpp"
 #include "check.hpp"
 #include "contact/make.hpp"
 #include "interaction/kernel.hpp"
@@ -172,19 +173,45 @@ TEST(test_number_of_levels) {
     CHECK_CLOSE(few.pull_off, many.pull_off, 0.02);
 }
 
-// Under a force: the pull-off force is held, JKR's, and no smaller one is.
+// Under a force, of which all that JKR's sphere can bear have a state on each grid; the pull-off
+// force is held, and no smaller one is.
 TEST(test_force) {
     const Jkr truth{1e-4};
-    const HeightMap map = sphere(truth, 64);
-    const auto contact = make_element_contact(map, flat_over(map), sharp(truth.w));
-    for (const double N : {0.5, 0.0, -0.5, -0.9}) {
-        const Level level = contact->at_force(N * truth.pull_off());
-        CHECK(level.converged);
-        CHECK_CLOSE(level.force, N * truth.pull_off(), 1e-5 * truth.pull_off());
+    for (const int n : {24, 32, 40, 64}) {
+        const HeightMap map = sphere(truth, n);
+        const auto contact = make_element_contact(map, flat_over(map), sharp(truth.w));
+        for (const double N : {0.5, 0.1, 0.0, -0.1, -0.5, -0.9}) {
+            const Level level = contact->at_force(N * truth.pull_off());
+            CHECK(level.converged);
+            CHECK_CLOSE(level.force, N * truth.pull_off(), 1e-4 * truth.pull_off());
+        }
+        const Level held = contact->at_force(-2 * truth.pull_off());
+        CHECK(!held.converged && held.fallback == Fallback::held);
+        CHECK_RELATIVE(held.force, -truth.pull_off(), 2.4 / n);
     }
-    const Level held = contact->at_force(-2 * truth.pull_off());
-    CHECK(!held.converged && held.fallback == Fallback::held);
-    CHECK_RELATIVE(held.force, -truth.pull_off(), 0.03);
+}
+
+// A layer that is thin beside the contact on a rigid body: springs, whose pull-off force is
+// 2 pi w R instead of JKR's. With the contact eight times as wide as the layer is thick, the
+// force is 1 % from this limit, and the pixel adds 1 %.
+TEST(test_thin_layer) {
+    constexpr double E = 1, nu = 0.3, thickness = 0.01, a = 8 * thickness, depth = a * a / 2,
+                     springs = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)) / thickness,
+                     w = springs * depth * depth / 2, h = thickness / 2.5;
+    const HeightMap map = height_map(72, 72, h, h, [](int i, int j) {
+        return -0.5 * h * h * (std::pow(i - 35.4, 2) + std::pow(j - 35.57, 2));
+    });
+    Indenter tip = flat_over(map);
+    tip.E_star = E / (1 - nu * nu);
+    tip.layers = {1, {{thickness, E, nu}}, kInfinity, nu};
+    const auto contact = make_element_contact(map, tip, sharp(w));
+    Level level;
+    for (double d = 0.1; d > -1.2; d -= d > -0.7 ? 0.2 : 0.1)
+        level = contact->at_separation(-d * depth);
+    CHECK(level.contacts == 0);
+    CHECK_RELATIVE(level.least_force, -2 * pi * w, 0.02);
+    tip.layers.layer[0].thickness = 1.9 * h;
+    CHECK_THROWS((void)make_element_contact(map, tip, sharp(w)), Error);
 }
 
 // One wave between flats (Johnson, Int. J. Solids Structures 32, 1995): with 2a of every wavelength
@@ -243,6 +270,28 @@ public:
         return map_.dx * map_.dx * std::accumulate(p_.begin(), p_.end(), 0.0);
     }
     void touch(std::size_t i) { f_[i] = 1; }
+    double energy(double Z) {
+        solve(Z);
+        double sum = 0;
+        for (const auto i : indices(f_)) sum += 0.5 * p_[i] * (clearance(i) - Z) - w_ * f_[i];
+        return map_.dx * map_.dx * sum;
+    }
+    // The least energy after a change of the share of one pixel at an edge.
+    double beside_it(double Z) {
+        const std::vector<double> f = f_, p = p_;
+        double least = kInfinity;
+        for (const auto i : indices(f))
+            for (const double by : {-0.02, 0.02}) {
+                f_ = f;
+                const bool pressed = f[i] == 1 && p[i] > 0;
+                f_[i] = std::clamp(f[i] + by, 0.0, 1.0);
+                if (f_[i] != f[i] && !pressed && (f[i] > 0 || beside(i)))
+                    least = std::min(least, energy(Z));
+            }
+        f_ = f;
+        p_ = p;
+        return least;
+    }
 
 private:
     double clearance(std::size_t i) const { return map_(int(i) % map_.nx, int(i) / map_.nx); }
@@ -312,6 +361,9 @@ TEST(test_minimiser) {
             const double force = slow.force(top - depth);
             largest = std::max(largest, std::abs(force));
             CHECK_CLOSE(level.force, force, 2e-3 * largest);
+            const double energy = slow.energy(top - depth), one = w * map.dx * map.dx;
+            CHECK_CLOSE(contact->energy(), energy, 1e-3 * one);
+            CHECK(seed > 1 || energy < slow.beside_it(top - depth));
         }
     }
 }
