@@ -73,6 +73,7 @@ GEOMETRIC = "permeability", "hydraulic_gap"
 OPEN = "percolates", *GEOMETRIC
 AXES = "_x", "_y"  # of the columns of a vector, or of the first two components of a tensor
 EXPECTED = "_error_expected"
+ROUNDING = 1e-9  # relative errors below it are those of the arithmetic, and not shown
 DERIVED = EXPECTED, "_mean", "_std", "_stderr", "_count"  # variables that belong to another one
 
 
@@ -353,6 +354,8 @@ def with_errors(header, lines):
         if not error or not line[k]:
             return line[k]
         relative = header[error_of[k]].endswith(EXPECTED)
+        if float(error) < ROUNDING or not float(line[k]):
+            return line[k]
         size = f"{100 * float(error):.2g} %" if relative else f"{float(error):.2g}"
         return f"{line[k]} +- {size}"
 

@@ -22,7 +22,8 @@ def jkr(result):
 def pull(results, options):
     """The force against the separation in the order of the levels: loading, and unloading with
     attached asperities; the area between is the energy lost. All results are drawn; a single one
-    beside the smooth ball (JKR), its loss shaded."""
+    with its loss
+    shaded; beside the smooth ball (JKR), if it is the same in all of them."""
     found = [r for r in results if r.pulls() and r.steps > 1]
     if not found:
         return None
@@ -53,7 +54,9 @@ def pull(results, options):
     colour = looks.of[0][1] if len(found) == 1 else "0.3"
     page.entry("down", color=colour, ls="-")
     page.entry("up", color=colour, ls="--")
-    smooth = jkr(found[0]) if len(found) == 1 else None
+    curves = [jkr(r) for r in found]
+    alike = all(c is not None and c[0].min() == curves[0][0].min() for c in curves)
+    smooth = curves[0] if alike else None
     if smooth:
         axis.autoscale_view()
         limits = axis.axis()

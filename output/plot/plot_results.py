@@ -16,7 +16,7 @@ _NO_MATTER = ("run%title", "run%threads", "output%")
 # Symbol of a key in a legend, and the unit of its values: "length", "force", "modulus" or none.
 _SYMBOLS = {
     "surface%sigma": (r"$\sigma$", "length"),
-    "surface%hurst": ("$H$", ""),
+    "surface%hurst": ("Hurst exponent $H$", ""),
     "surface%L": ("$L$", "length"),
     "surface%n": ("$n$", ""),
     "surface%L_lambda_l": (r"$L/\lambda_l$", ""),

@@ -193,6 +193,8 @@ def study(results, options):
     results = [r for r in results if "force" in r and r.loaded().size]
     found = _keys(results)
     if not found:
+        if len(results) == 2:
+            options.say("study: two results make no curve; three or more are drawn")
         return None
     in_sigma = all("separation_sigma" in r for r in results) and "surface%sigma" not in found[0]
     separation = "separation_sigma" if in_sigma else "separation"
@@ -229,6 +231,16 @@ def _mark(page, results, found, values, at):
             axis.plot(x[these], values[these], marker, mfc="none", mec="k", ms=9, label=text)
 
 
+def _force_error(result, level):
+    """Expected error of the force at a level, as a force; where the force is prescribed, that of
+    the separation times the stiffness."""
+    relative = result.error("force")[level]
+    if relative > 0 or "separation_error_expected" not in result:
+        return relative * abs(result.mean("force")[level])
+    error = result["separation_error_expected"].reshape(-1, result.steps)[:, level]
+    return np.nan_to_num(error[0] * abs(result.mean("stiffness")[level]))
+
+
 def pulloff(results, options):
     """Pull-off force and work lost against the keys that vary, beside the smooth ball (JKR)."""
     results = [r for r in results if r.pulls() and r.carrying().size]
@@ -239,7 +251,7 @@ def pulloff(results, options):
     errors = np.array([float(r.standard_error(r["pull_off_force"])) for r in results])
     dimension = results[0].dimension("pull_off_force")
     at = [int(np.nanargmin(r.mean("force"))) for r in results]  # the level of the smallest force
-    expected = np.array([r.error("force")[k] for r, k in zip(results, at)]) * values
+    expected = np.array([_force_error(r, k) for r, k in zip(results, at)])
     panels = [Panel("pull_off_force", values, errors, expected, dimension)]
     if all("energy_lost" in r for r in results):
         panels.append(_at_level(results, [r.steps - 1 for r in results], "energy_lost"))

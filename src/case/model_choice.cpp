@@ -114,8 +114,8 @@ ModelChoice model_of(const Case& c) {
             return {ModelKind::elements, why};
     if (least_stated_error(c.asperities.law) > kAcceptableError)
         return {ModelKind::elements,
-                "asperities have a stated error of N above 5 % at every level; for many levels or "
-                "realizations they are faster: solver%model = 'asperities'"};
+                "they are the more accurate model; asperities, whose stated error of N is above "
+                "5 % at every level, are faster"};
     return {ModelKind::asperities, "their stated error of N is at most 5 %"};
 }
 

@@ -265,10 +265,7 @@ std::vector<Key> keys_of_solver() {
         choice(RSC_KEY(solver, model), kModelNames,
                "asperities: the summits of the surface; elements: boundary elements on every point "
                "of the surface (slower, more accurate). "
-               "auto: elements for height maps, asperities for isotropic Gaussian surfaces where "
-               "they hold (slope of the indenter at the contacts at most 0.2 of the rms slope of "
-               "the surface, or two flats), elsewhere elements, unless another key needs "
-               "asperities"),
+               "auto: elements, unless another key needs asperities"),
     };
 }
 

@@ -115,6 +115,8 @@ std::string describe(std::string_view name) {
     } else if (const std::string found = search(group);
                name.find('%') == name.npos && !found.empty()) {
         return found;
+    } else if (name.find('%') == name.npos) {
+        bad_input("no group, key or result has '", name, "' in its name or meaning");
     } else {
         const Key& key = key_of(name);
         out << "&" << key.group << "\n";

@@ -72,7 +72,8 @@ struct Remarks {
     std::string place_of(const LevelValues& level) const {
         if (c.indentation.control == Control::separation)
             return format("Z0/sigma = %.4g", level.separation / job.sigma);
-        return format("N = %.4g %s", level.force, f);
+        if (c.run.realizations > 1) return format("N = %.4g %s", level.force, f);
+        return format("level %td, N = %.4g %s", &level - levels.data() + 1, level.force, f);
     }
 
     void print_methods() const {
@@ -116,7 +117,8 @@ struct Remarks {
         switch (cause) {
             case Cause::grid: {
                 const double N = largest(cause, error_of_force), A = largest(cause, area);
-                return A > 0 ? " (errors up to: N " + percent(N) + ", A " + percent(A) + ")"
+                return A > 0 ? " (errors at a given separation up to: N " + percent(N) + ", A " +
+                                   percent(A) + ")"
                              : up_to("error of N", error_of_force);
             }
             case Cause::model_error: return up_to("error of N", error_of_force);
@@ -249,6 +251,15 @@ struct Remarks {
             failure + "the residual is above solver%tolerance: do not use these values; " + remedy);
     }
 
+    std::string why_no_stiffness() const {
+        if (!elements) return "contacts overlap too much for them" + to_elements();
+        constexpr double kFull = 1 - 1e-12;  // A/A0
+        const bool closed = std::ranges::all_of(levels, [](const LevelValues& l) {
+            return !(std::isnan(l.stiffness) && l.contacts > 0) || l.area_fraction > kFull;
+        });
+        return closed ? "the gap between two flats is closed" : "their iteration did not converge";
+    }
+
     void print_statuses() const {
         print_doubts();
         say(
@@ -256,9 +267,7 @@ struct Remarks {
                 return std::isnan(l.stiffness) && l.contacts > 0 && l.converged;
             },
             std::string("stiffness, conductance and resistance are missing: ") +
-                (elements ? "the gap between two flats is closed, or their iteration did not "
-                            "converge"
-                          : "contacts overlap too much for them" + to_elements()));
+                why_no_stiffness());
         say([](const LevelValues& l) { return l.status == LevelStatus::overlapping; },
             "overlapping - pairs of contact spots closer than the sum of their radii: "
             "spots that would merge are counted as two");
@@ -268,30 +277,39 @@ struct Remarks {
         print_failures();
     }
 
+    std::string unit_after(const LevelQuantity& q) const {
+        const std::string unit = q.unit_in(l, f, c.run.time_unit);
+        return unit == "1" ? "" : " " + unit;
+    }
+
     // "N = 1.23 N +- 5 %": the last level of a single run that has expected errors; under a
     // prescribed force the separation instead of N.
     void print_bounds() const {
         const auto last = std::find_if(levels.rbegin(), levels.rend(), [](const LevelValues& l) {
-            return l.force_error_expected >= 0 || l.separation_error_expected >= 0;
+            return l.force_error_expected >= 0 || l.area_error_expected >= 0;
         });
         if (c.run.realizations > 1 || last == levels.rend()) return;
-        std::string first;
+        std::string text;
         if (last->separation_error_expected >= 0) {
-            first = format("Z0 = %.6g %s +- %.2g %s", last->separation, l,
-                           last->separation_error_expected, l);
-        } else {
+            text = format("Z0 = %.6g %s +- %.2g %s", last->separation, l,
+                          last->separation_error_expected, l);
+        } else if (const double error = last->force_error_expected; error >= 0) {
             // Where adhesion nearly balances N, the error is many times N: printed as a force.
-            const double error = last->force_error_expected;
-            first =
+            text =
                 format("N = %.4g %s +- ", last->force, f) +
                 (error > 1 ? format("%.2g %s", error * std::abs(last->force), f) : percent(error));
         }
-        const std::string area = last->area_error_expected >= 0
-                                     ? format(", A = %.4g %s2 +- %s", last->area, l,
-                                              percent(last->area_error_expected).c_str())
-                                     : "";
-        out << format("level %td: %s%s: bounds valid in nine of ten cases\n", levels.rend() - last,
-                      first.c_str(), area.c_str());
+        if (last->area_error_expected >= 0)
+            enlist(text, ", ", format("A = %.4g %s2 +- ", last->area, l),
+                   percent(last->area_error_expected));
+        // What the case asks for beyond N and A.
+        for (const LevelQuantity& q : level_quantities())
+            if (const double error = q.error(*last), value = q.of(*last);
+                q.answers && error > 0 && std::abs(value) > 0)
+                enlist(text, ", ", q.plain, format(" = %.4g", value), unit_after(q), " +- ",
+                       percent(error));
+        out << format("level %td: ", levels.rend() - last) << text
+            << ": bounds valid in nine of ten cases\n";
     }
 
     // What the physics of the case say of the levels.

@@ -261,10 +261,11 @@ void print_level(std::ostream& out, const Job& job, std::size_t number, const Le
     for (const LevelQuantity& q : level_quantities()) {
         if (!shown(q, job)) continue;
         if (std::holds_alternative<LevelStatus LevelValues::*>(q.member))
-            out << "  " << outcome_of(level)
-                << (level.fallback == Fallback::none ? ""
-                                                     : std::string(", ") + name_of(level.method) +
-                                                           ": " + fallback_text(level.fallback));
+            out << "  " << outcome_of(level) << (level.fallback == Fallback::none ? "" : ", ")
+                << (level.fallback == Fallback::none || level.method == Method::automatic
+                        ? ""
+                        : name_of(level.method) + ": ")
+                << fallback_text(level.fallback);
         else if (q.integer())
             out << format(" %*.0f", q.width, q.of(level));
         else if (q.digits > 0)
@@ -282,7 +283,8 @@ static std::string plot_script() {
     std::error_code error;
     if (fs::exists(here, error)) return here;
     const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
-    for (const char* place : {"../share/rsc/plot/plot.py", "../output/plot/plot.py"})
+    for (const char* place :
+         {"output/plot/plot.py", "../share/rsc/plot/plot.py", "../output/plot/plot.py"})
         if (fs::exists(folder / place, error)) return (folder / place).lexically_normal().string();
     return here;
 }

@@ -22,6 +22,8 @@ constexpr double kStraight = 0.25;
 // Contacts whose straight borders are longer than this number of their widths lie on crests. Those
 // of summits are rounder, and their errors need no crests (input/trust/resolution.py).
 constexpr double kElongated = 3;
+// Share of a period from which straight borders continue into the next one, and have no end.
+constexpr double kEndless = 0.9;
 
 constexpr int kRows = 16;  // that a thread takes at a time
 
@@ -115,7 +117,9 @@ GridError error_of_crests(const Level& level, double stiffness, const HeightMap&
     const double pixels = double(level.pixels.index.size()),
                  straight = level.border_runs * level.border_runs * pixels / level.border_share,
                  width = pixels / level.contacts / straight;
-    if (!(straight > kElongated * width)) return {};
+    const bool endless =
+        indenter.period.finite() && map.ny > 1 && straight > kEndless * std::min(map.nx, map.ny);
+    if (!endless && !(straight > kElongated * width)) return {};
     double mean = 0;
     for (const auto c : indices(level.f))
         mean += level.f[c] / level.force *

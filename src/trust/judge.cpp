@@ -186,6 +186,7 @@ void state_errors(Level& level, std::span<const Doubt> doubts, const GridBodies&
                                           quantity.of(level, c));
             level.errors[quantity.slot + c] = error;
         }
+    level.errors[find_quantity("area_fraction")->quantity->slot] = level.area_error_expected;
 }
 
 }  // namespace
@@ -202,6 +203,8 @@ void Judge::judge(Level& level, Path& contact, bool by_force) {
     const Indenter& indenter = contact.indenter();
     count_contacts(level, indenter, options_);
     if (!level.converged) return conclude(level, {}, by_force);
+    // It makes an error of N one of Z0.
+    if (by_force && std::isnan(level.stiffness)) level.stiffness = contact.stiffness();
     std::vector<Doubt> doubts =
         elements ? of_elements(level, contact, by_force) : of_asperities(level, contact);
     if (level.indenter_slope > kSmallSlope) doubts.push_back({Cause::steep_indenter});

@@ -146,7 +146,7 @@ void print_sticking(std::ostream& out, const RunFacts& run) {
             "jumps: %ld, energy lost: %.4g %s %s%s. Results depend on the loading history.\n",
             least, units.force_unit.c_str(),
             error > 0 ? joined(" +- ", percent(error)).c_str() : "",
-            smallest ? (" up to " + run.place_of(*smallest)).c_str() : "",
+            smallest ? (" (" + run.place_of(*smallest) + ")").c_str() : "",
             apart ? "separated" : "still attached", jumps, lost, units.force_unit.c_str(),
             units.length_unit.c_str(), how.c_str());
     }

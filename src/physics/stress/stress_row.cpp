@@ -199,9 +199,11 @@ void print_stresses(std::ostream& out, const RunFacts& run) {
         for (const auto k : indices(n))
             if (const double v = part(0)[k]; v > 0 && (most == n || v > part(0)[most])) most = k;
         if (most == n) continue;
-        out << format("  %s %.4g %s at (%.5g, %.5g) %s, depth %.4g %s\n", kMeasures[m].heading,
-                      part(0)[most], unit.c_str(), part(2)[most], part(3)[most], length.c_str(),
-                      run.axis[most], length.c_str());
+        const double error = part(1)[most];
+        out << format("  %s %.4g %s%s at (%.5g, %.5g) %s, depth %.4g %s\n", kMeasures[m].heading,
+                      part(0)[most], unit.c_str(),
+                      error > 0 ? joined(" +- ", percent(error)).c_str() : "", part(2)[most],
+                      part(3)[most], length.c_str(), run.axis[most], length.c_str());
     }
 }
 

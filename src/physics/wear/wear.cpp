@@ -189,6 +189,11 @@ const Physics kWear = {
     .lowers = true,
     .reshapes = true,
     .require_feasible = require_distances,
+    // How far Z0 of a worn surface changes with the grid was not studied.
+    .further_approach =
+        [](const Level& level, const HeightMap&, const Indenter&, const BodyPhysics&) {
+            return level.worn_volume > 0 ? kNotComputed : 0.0;
+        },
     .bytes_per_point = 58,  // depths, with those of the level before
     .remark = print_worn,
     .lowering = make_wear,
