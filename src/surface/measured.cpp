@@ -318,6 +318,10 @@ void tell_form_and_heights(const Measured& m, const char* l, std::vector<std::st
 }
 
 void tell_spectrum(const Measured& m, const char* l, std::vector<std::string>& lines) {
+    constexpr double kKnown = 0.5;  // of the interval of a Hurst exponent, 0 to 1
+    if (m.fit && m.fit->hurst.error > kKnown)
+        return lines.push_back(
+            "spectrum: not that of a self-affine surface (hurst and its wavelengths are unknown)");
     if (m.fit) {
         const SelfAffineFit& fit = *m.fit;
         const double two_pi = 2 * std::numbers::pi;

@@ -119,7 +119,8 @@ GridError error_of_crests(const Level& level, double stiffness, const HeightMap&
                  width = pixels / level.contacts / straight;
     const bool endless =
         indenter.period.finite() && map.ny > 1 && straight > kEndless * std::min(map.nx, map.ny);
-    if (!endless && !(straight > kElongated * width)) return {};
+    const double borders = endless ? kStraight * level.border_share * of_smaller_area(level) : 0.0;
+    if (!(straight > kElongated * width)) return {0, borders};
     double mean = 0;
     for (const auto c : indices(level.f))
         mean += level.f[c] / level.force *
