@@ -116,7 +116,8 @@ std::string describe(std::string_view name) {
                name.find('%') == name.npos && !found.empty()) {
         return found;
     } else if (name.find('%') == name.npos) {
-        bad_input("no group, key or result has '", name, "' in its name or meaning");
+        bad_input("no group, key or result has '", name, "' in its name or meaning",
+                  namelist::suggestion(name, group_names()));
     } else {
         const Key& key = key_of(name);
         out << "&" << key.group << "\n";

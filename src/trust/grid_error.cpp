@@ -17,7 +17,7 @@ constexpr double kEdgeShare = 0.17;
 // q). That of A is 0.8 sqrt(q): the width of a contact in points is proportional to 1/sqrt(q).
 constexpr double kCrest = 0.35, kCrestArea = 0.8;
 // Straight borders are known to half a pixel, often alike on many ridges.
-constexpr double kStraight = 0.25;
+constexpr double kHalfPixel = 0.5, kStraight = 0.25;
 
 // Contacts whose straight borders are longer than this number of their widths lie on crests. Those
 // of summits are rounder, and their errors need no crests (input/trust/resolution.py).
@@ -119,7 +119,7 @@ GridError error_of_crests(const Level& level, double stiffness, const HeightMap&
                  width = pixels / level.contacts / straight;
     const bool endless =
         indenter.period.finite() && map.ny > 1 && straight > kEndless * std::min(map.nx, map.ny);
-    const double borders = endless ? kStraight * level.border_share * of_smaller_area(level) : 0.0;
+    const double borders = endless ? kHalfPixel * level.border_share * of_smaller_area(level) : 0.0;
     if (!(straight > kElongated * width)) return {0, borders};
     double mean = 0;
     for (const auto c : indices(level.f))

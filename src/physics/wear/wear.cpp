@@ -91,7 +91,7 @@ void check_wear(const Case& settings, const Complain& complain) {
 
 // The integral of N over the distance has the error of N; it is known where N is prescribed.
 double error_of_worn_volume(const LevelValues& level, std::size_t) {
-    const bool by_force = level.separation_error_expected >= 0;
+    const bool by_force = level.area_error_expected >= 0 && std::isnan(level.force_error_expected);
     return by_force ? 0.0 : level.force_error_expected;
 }
 
