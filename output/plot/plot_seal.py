@@ -44,6 +44,12 @@ def seal(results, options):
         ):
             open_at = at[values[at] > 0]
             axis.plot(pressure[open_at], values[open_at], line, color=look[1], label=text)
+        shut = at[gaps[0][at] <= 0]
+        if shut.size and shut.size < at.size:
+            last = pressure[at[gaps[0][at] > 0]].max()
+            axis.axvspan(last, pressure[shut].max(), color="0.9", lw=0)
+            closes = amount(last, result.dimension("pressure"))
+            page.entry(f"closes above {closes}", color="0.9", lw=5)
         share = result.mean("area_fraction")[at]
         if share.min() < CLOSED < share.max():
             limit = np.exp(np.interp(CLOSED, share, np.log(pressure[at])))

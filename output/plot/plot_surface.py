@@ -71,8 +71,9 @@ def _map(page, axis, result, name):
         label(axis, which, f"${which}$", dimension)
     sq = float(result["sq"]) if "sq" in result else float(np.nanstd(result[variable]))
     filled = int(result["filled_points"]) if "filled_points" in result else 0
+    worn = "worn, " if "worn_volume" in result and result.mean("worn_volume")[-1] > 0 else ""
     axis.set_title(
-        f"{name}rms height {amount(sq, dimension)}"
+        f"{name}{worn}rms height {amount(sq, dimension)}"
         + (f",\n{filled} points filled" if filled else "")
     )
 

@@ -88,6 +88,7 @@ RunSummary summary_of(const Result& result) {
     summary.failed = result.compared.failed;
     for (const LevelValues& level : o.rows) {
         summary.failed += level.status == LevelStatus::not_converged;
+        summary.held += level.fallback == Fallback::held;
         summary.doubtful += level.doubts != 0;
         summary.doubts |= level.doubts;
     }
@@ -102,7 +103,13 @@ void tell_failed(const RunOptions& options, const RunSummary& summary) {
     if (summary.failed == 0 || !options.messages) return;
     *options.messages
         << "rsc: " << summary.failed << " of " << summary.levels
-        << " levels did not converge; their values are in the file with status = 4.\n";
+        << " levels did not converge; they have status = 4 in the file, and tables leave them out"
+        << (summary.held == 0
+                ? "."
+                : joined("; ", summary.held,
+                         " of them because no state has their force: give separations "
+                         "(indentation%control = 'separation')."))
+        << '\n';
 }
 
 namespace {
