@@ -389,7 +389,7 @@ int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const doub
         const Indenter indenter = contact->path.indenter_at_level();
         const auto kernel =
             make_kernel(Interaction::point, substrate_of(indenter), indenter.period);
-        const std::optional<Level> lasting = contact->path.lasting_loads(last);
+        const std::optional<Level> lasting = contact->path.remains(last).lasting_loads;
         const Level& level = lasting ? *lasting : last;
         for (int64_t i = 0; i < n; ++i) {
             const Vec2 place = indenter.image(x[i], y[i]);

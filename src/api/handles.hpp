@@ -6,8 +6,8 @@
 #include "physics/friction/contact_curve.hpp"
 #include "physics/friction/element_friction.hpp"
 #include "physics/friction/friction.hpp"
+#include "problem/bodies.hpp"
 #include "rsc.h"
-#include "run/prepare.hpp"
 #include "trust/judge.hpp"
 
 namespace rsc::api {

@@ -110,7 +110,7 @@ Entries read(const std::string& path, const char* what) {
         reader(entries.numbers[{name.begin(), name.end()}]);
     }
     reader.end();
-    if (entries.one("format") > kFormat)
+    if (entries.one("format") > kFormat || begins_with(entries.texts["rsc"], "0.3"))
         refuse("was saved by rsc ", entries.texts["rsc"],
                ", which this version (" RSC_VERSION ") cannot read");
     return entries;
@@ -227,33 +227,19 @@ void get_rest(const Entries& from, const std::string& prefix, Level& level) {
         level.spots.push_back({spots[k], spots[k + 1], spots[k + 2], spots[k + 3], spots[k + 4]});
 }
 
-// Files of version 0.3 have one array in place of "accepted" and "history".
-void get_history(const Entries& from, const std::string& prefix, bool relaxes, Path::State& state) {
-    const bool old = from.numbers.contains(prefix + "memory");
-    Numbers accepted(3, kNotComputed);
-    state.history = from.of(prefix + (old ? "memory" : "history"));
-    if (!old) {
-        accepted = from.of(prefix + "accepted");
-    } else if (relaxes && state.history.size() >= 3) {
-        const auto rest = state.history.begin() + 3;
-        accepted.assign(state.history.begin(), rest);
-        state.history.erase(state.history.begin(), rest);
-    }
-    if (accepted.size() != 3) bad_input(kBroken);
-    state.time = accepted[0];
-    state.separation = accepted[1];
-    state.force = accepted[2];
-}
-
 bool tip_moved(const rsc_contact& contact) { return contact.path.indenter().around.finite(); }
 
 Path::State get_state(const Entries& from, const std::string& prefix, const rsc_contact& contact) {
     Path::State state;
     const Numbers& tip = from.of(prefix + "tip");
-    if (tip.size() != 2) bad_input(kBroken);
+    const Numbers& accepted = from.of(prefix + "accepted");
+    if (tip.size() != 2 || accepted.size() != 3) bad_input(kBroken);
     state.x0 = tip[0];
     state.y0 = tip[1];
-    get_history(from, prefix, contact.path.relaxes(), state);
+    state.time = accepted[0];
+    state.separation = accepted[1];
+    state.force = accepted[2];
+    state.history = from.of(prefix + "history");
     const bool whole = from.numbers.contains(prefix + "clock");
     const Numbers clock =
         whole ? from.of(prefix + "clock") : Numbers{kNotComputed, double(tip_moved(contact))};
@@ -265,8 +251,7 @@ Path::State get_state(const Entries& from, const std::string& prefix, const rsc_
     if (!from.numbers.contains(prefix + "level")) return state;
     const Numbers& known = from.of(prefix + "level");
     const Numbers& pixels = from.of(prefix + "level.pixels");
-    if ((known.size() != 3 && known.size() != 8) || (pixels.size() != 5 && pixels.size() != 6))
-        bad_input(kBroken);
+    if (known.size() != 3 || pixels.size() != 5) bad_input(kBroken);
     Level level;
     level.separation = known[0];
     state.level_x0 = known[1];
@@ -288,8 +273,6 @@ Path::State get_state(const Entries& from, const std::string& prefix, const rsc_
     level.pixels.y0 = pixels[2];
     level.pixels.dx = pixels[3];
     level.pixels.dy = pixels[4];
-    if (pixels.size() == 6 && level.pixels.attraction.empty())  // version 0.3
-        level.pixels.attraction.assign(level.pixels.cohesive.size(), pixels[5]);
     const auto& points = contact.on->points;
     const int places = points ? points->nx * points->ny : int(contact.path.asperities()->size());
     const auto outside = [&](int k) { return k < 0 || k >= places; };
@@ -303,7 +286,6 @@ Path::State get_state(const Entries& from, const std::string& prefix, const rsc_
         level.y.size() != n || level.f.size() != n || level.a.size() != n || level.u.size() != n ||
         level.pixels.attraction.size() != level.pixels.cohesive.size())
         bad_input(kBroken);
-    if (known.size() == 8) level.energy = known[3];  // version 0.3
     get_rest(from, prefix, level);
     state.level = std::move(level);
     return state;

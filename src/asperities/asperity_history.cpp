@@ -5,13 +5,7 @@
 
 namespace rsc {
 
-std::vector<double> AsperityModel::residual_depths() const {
-    return impl_->history->residual_depths();
-}
-
-std::optional<Level> AsperityModel::lasting_loads(const Level& level) const {
-    return impl_->history->lasting(level);
-}
+Remains AsperityModel::remains(const Level& level) const { return impl_->history->remains(level); }
 
 std::vector<double> AsperityModel::write() const {
     std::vector<double> numbers;

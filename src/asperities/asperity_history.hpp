@@ -4,6 +4,7 @@
 
 #include "asperities/asperity_level.hpp"
 #include "asperities/candidates.hpp"
+#include "contact/stepper.hpp"
 #include "interaction/products.hpp"
 
 namespace rsc {
@@ -20,18 +21,17 @@ public:
     virtual void read(std::span<const double>) {}
     // Energy stored in the bodies, where it is not that of the last solution.
     virtual std::optional<double> stored() const { return std::nullopt; }
-    // Residual depth of each asperity; empty: they do not yield.
-    virtual std::vector<double> residual_depths() const { return {}; }
+    // As History.
+    virtual Remains remains(const Level&) const { return {}; }
 
     // Bodies that relax: begins a step of time; the ratio of the forces of the law to the true ones
-    // at its end; the sum of the loads that earlier levels leave, and the deflection by them, which
-    // is subtracted from g0 of the candidates; and History::lasting_loads().
+    // at its end; the sum of the loads that earlier levels leave; and the deflection by them, which
+    // is subtracted from g0 of the candidates.
     virtual void step(double) {}
-    virtual double shortest_time() const { return kInfinity; }  // of relaxation
+    virtual const Stepper* stepper() const { return nullptr; }
     virtual double scale() const { return 1; }
     virtual double rest() const { return 0; }
     virtual void lower(Candidates&, Products&) {}
-    virtual std::optional<Level> lasting(const Level&) const { return std::nullopt; }
 };
 
 struct AsperityPhysics {

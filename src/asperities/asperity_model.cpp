@@ -256,7 +256,7 @@ void AsperityModel::accept(Level& level) {
 
 History* AsperityModel::history() { return impl_->law->memory() ? this : nullptr; }
 
-double AsperityModel::shortest_time() const { return impl_->history->shortest_time(); }
+const Stepper* AsperityModel::stepper() const { return impl_->history->stepper(); }
 
 void AsperityModel::step(double dt, double) { impl_->history->step(dt); }
 
@@ -272,17 +272,12 @@ void AsperityModel::forget() {
     impl_->solution.clear();
 }
 
-std::optional<double> AsperityModel::likely_separation() const {
-    if (impl_->solution.force.empty()) return std::nullopt;
-    return impl_->earlier.likely_separation(first_touch());
-}
-
 double AsperityModel::shift() const { return impl_->kernel->shift() * impl_->scale(); }
 
 // The force without interaction, which is an upper bound.
 double AsperityModel::force_at_most(double depth) {
     Impl& my = *impl_;
-    const double Z0 = first_touch() - depth;
+    const double Z0 = contact_range().first_touch - depth;
     Candidates there;
     select_candidates(my.contenders(), my.options, Z0, there);
     const WorkingSet& set = there.set;
@@ -292,10 +287,11 @@ double AsperityModel::force_at_most(double depth) {
     return sum / my.scale();
 }
 
-double AsperityModel::stiffness(double accuracy) {
+double AsperityModel::stiffness(Slope which) {
+    constexpr double rough = 1e-3, exact = 1e-12;
     if (impl_->solution.v.empty()) return 0;
-    if (accuracy >= kForNewton) return impl_->force_slope(accuracy);
-    return impl_->newton.stiffness(accuracy) / impl_->scale();
+    if (which == Slope::rough) return impl_->force_slope(rough);
+    return impl_->newton.stiffness(exact) / impl_->scale();
 }
 
 double AsperityModel::energy() const {
@@ -314,8 +310,8 @@ void AsperityModel::move_tip(double x0, double y0) {
     if (my.of_difference) my.of_difference->forget();
 }
 
-double AsperityModel::first_touch() const {
-    return impl_->contenders().highest() + impl_->raised();
+ContactRange AsperityModel::contact_range() const {
+    return {.first_touch = impl_->contenders().highest() + impl_->raised()};
 }
 
 const Indenter& AsperityModel::indenter() const { return impl_->indenter; }

@@ -25,7 +25,7 @@ public:
     // The last level is a starting point for the next if its solution is proved unique. Summits of
     // the difference are those of a new contact at this place.
     void move_tip(double x0, double y0) override;
-    double first_touch() const override;
+    ContactRange contact_range() const override;
     double shift() const override;
 
     // The solution depends only on z: earlier ones are used as starting points only if the solution
@@ -36,22 +36,20 @@ public:
     void keep(ArchiveWriter& to) const override;
     void recall(ArchiveReader& from) override;
 
-    double stiffness(double accuracy) override;
+    double stiffness(Slope which) override;
     // W = sum W_i(u_i) + F'BF/2: the work W_i = int_0^u f du of the asperities plus the interaction
     // energy. Since u + B F = g0, dW/dz = F'dg0/dz = -N. It is evaluated as -E(F) of newton.hpp,
     // which equals W at the solution with an error of the order of the square of the residual.
     double energy() const override;
     double force_at_most(double depth) override;
-    std::optional<double> likely_separation() const override;
 
 private:
     void accept(Level& level) override;
     std::vector<double> write() const override;
     void read(const std::vector<double>& numbers) override;
-    double shortest_time() const override;
+    const Stepper* stepper() const override;
     void step(double dt, double lasting) override;
-    std::optional<Level> lasting_loads(const Level& level) const override;
-    std::vector<double> residual_depths() const override;
+    Remains remains(const Level& level) const override;
 
     void move_with_history(double x0, double y0);
 

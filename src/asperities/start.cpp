@@ -79,14 +79,6 @@ bool EarlierLevels::predict(double Z0, const Candidates& candidates, Vector& sta
     return any;
 }
 
-std::optional<double> EarlierLevels::likely_separation(double first_touch) const {
-    if (past_) return past_->separation;
-    if (last_place_.known.empty() || !(last_place_.separation < first_touch)) return std::nullopt;
-    const double next =
-        last_place_.separation + step_ratio_ * (last_place_.separation - place_before_.separation);
-    return next < first_touch ? next : last_place_.separation;
-}
-
 Vector cold_start(const Law& law, Products& products, const WorkingSet& candidates) {
     const int n = candidates.size();
     Vector start(at(n)), F(at(n)), D(at(n)), W(at(n)), active_F, phi(at(n));

@@ -28,9 +28,6 @@ public:
     // not to touch (which is checked later). Returns false without a prediction.
     bool predict(double Z0, const Candidates& candidates, std::vector<double>& start) const;
 
-    // Start for force control, if there is one below `first_touch`.
-    std::optional<double> likely_separation(double first_touch) const;
-
     // Whether archived levels are of this many asperities.
     bool fits(std::size_t asperities) const {
         return last_place_.fits(asperities) && place_before_.fits(asperities);

@@ -5,6 +5,11 @@
 
 namespace rsc {
 
+// Expected relative errors of N and A at a separation.
+struct GridError {
+    double force = 0, area = 0;
+};
+
 struct GridBodies {
     bool measured = false;  // the heights were measured, and may have waves as short as their grid
     bool edged = false;     // body 2 is a punch or a cone

@@ -246,4 +246,14 @@ struct Level : LevelValues {
     }
 };
 
+// What accepted levels leave in the bodies.
+struct Remains {
+    std::vector<double> residual_depths = {};  // of each asperity [length]; empty: none yielded
+    ResidualProfile residual_profile = {};     // of boundary elements
+    // Relaxing bodies: the loads that would give an elastic body with the instantaneous moduli the
+    // present deflections, which still contain those of earlier loads. They act on all pixels, or
+    // contacts, that ever carried load.
+    std::optional<Level> lasting_loads = {};
+};
+
 }  // namespace rsc

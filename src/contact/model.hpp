@@ -5,11 +5,9 @@
 
 #include "base/archive.hpp"
 #include "contact/level.hpp"
+#include "contact/stepper.hpp"
 
 namespace rsc {
-
-// What the levels of a body depend on beside their order: time, or the distance of sliding.
-enum class PathClock { none, time, distance };
 
 // What accepted levels leave in bodies whose levels depend on earlier ones: flattened asperities,
 // loads that relax, points that stick, worn heights. Only a Path changes it.
@@ -27,32 +25,28 @@ public:
     // Length over which the attraction of the bodies acts, or which they are pulled out when they
     // part [length]; negative: they do not attract.
     virtual double attraction() const { return -1; }
-    // The shortest relaxation time; Infinity: levels do not depend on time.
-    virtual double shortest_time() const { return kInfinity; }
-    virtual PathClock clock() const {
-        return shortest_time() < kInfinity ? PathClock::time : PathClock::none;
-    }
-    // Bodies that wear: the number of steps is doubled until N, or the depth, changes by less than
-    // this share.
-    virtual double accuracy() const { return 0; }
-    // With a clock: following solutions end a step of this length that begins at the last accepted
-    // one. What they change in the bodies for good is, when they are accepted, that of a step of
-    // length `lasting` at their pressures: another length in a stage of a step of sliding.
+    // How a level is reached in time or by sliding; null: levels depend on their order only.
+    virtual const Stepper* stepper() const { return nullptr; }
+    // With a stepper: following solutions end a step of this length that begins at the last
+    // accepted one, of which `lasting` remains (Leg::solve).
     virtual void step(double length, double lasting) {
         (void)length;
         (void)lasting;
     }
 
-    // Relaxing bodies: the loads that would give an elastic body with the instantaneous moduli the
-    // present deflections, which still contain those of earlier loads; no value for other bodies.
-    // The loads act on all pixels, or contacts, that ever carried load. `level` is the last level.
-    virtual std::optional<Level> lasting_loads(const Level& level) const {
-        return (void)level, std::nullopt;
-    }
-    // Residual depth of each asperity after unloading [length]; empty if none yielded.
-    virtual std::vector<double> residual_depths() const { return {}; }
-    // Boundary elements: the points that yielded and their residual depths.
-    virtual ResidualProfile residual_profile() const { return {}; }
+    // `level` is the last level.
+    virtual Remains remains(const Level& level) const { return (void)level, Remains{}; }
+};
+
+// The slope of N: as exact as a result, as exact as Newton's method needs, or, of bodies that
+// attract, with contact areas that stay as they are.
+enum class Slope { exact, rough, clamped };
+
+// Separations between which the bodies touch each other [length].
+struct ContactRange {
+    // Below it there is no solution, at it N is not determined; -Infinity: there is none.
+    double full_contact = -kInfinity;
+    double first_touch;  // -Infinity: nothing lies under the indenter
 };
 
 // Results depend on the bodies and their history, the place of the tip and the separation. Earlier
@@ -69,11 +63,7 @@ public:
 
     // Moves the tip to (x0, y0); what it must follow on the way, it follows.
     virtual void move_tip(double x0, double y0) = 0;
-    // Separation at which the indenter touches the surface [length]; -Infinity if nothing lies
-    // under it.
-    virtual double first_touch() const = 0;
-    // Separation of full contact: below it there is no solution, at it N is not determined.
-    virtual double closed() const { return -kInfinity; }
+    virtual ContactRange contact_range() const = 0;
 
     // The model's separations z are measured from a plane that each unit force raises by this
     // [length/force], so that forces only lower the surface: Z0 = z + shift() N (Kernel::shift()).
@@ -91,12 +81,6 @@ public:
     // Solves at the separation z of a level accepted earlier, at the history after it; later
     // solutions then start from there.
     virtual void solve_again(double z, const Level& level) = 0;
-    // Later solutions start from this level at the separation z, as from one solved here, if the
-    // model starts from earlier ones.
-    virtual void start_from(double z, const Level& level) {
-        (void)z;
-        (void)level;
-    }
     // Earlier solutions are no longer starting points, and there is no history.
     virtual void forget() = 0;
 
@@ -109,22 +93,15 @@ public:
 
     // Of the last solution, or with adhesion of the state after move_tip(): dN/dz (negative; 0
     // without contact, NaN in full contact of two flats, where N is no function of z)
-    // [force/length], to a relative accuracy; for unloading if it is accepted.
-    virtual double stiffness(double accuracy) = 0;
-    // Of bodies that attract: the force that a unit approach adds at fixed contact areas
-    // [force/length], positive. Without attraction, this is -stiffness().
-    virtual double clamped_stiffness() { return -stiffness(kExact); }
+    // [force/length]; for unloading if it is accepted.
+    virtual double stiffness(Slope which) = 0;
     // Elastic energy, dW/dz = -N [force length]: of path-dependent bodies the recoverable energy.
     // The error is of the order of the square of the residual.
     virtual double energy() const = 0;
 
     // For force control: an upper bound of the force at a depth below first touch, exact for one
-    // asperity; and a first guess of the separation, absent: near first touch.
+    // asperity.
     virtual double force_at_most(double depth) = 0;
-    virtual std::optional<double> likely_separation() const { return {}; }
-
-    // Accuracy of results, and sufficient accuracy of stiffness() for Newton's method.
-    static constexpr double kExact = 1e-12, kForNewton = 1e-3;
 };
 
 }  // namespace rsc

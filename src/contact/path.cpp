@@ -11,10 +11,6 @@ constexpr double kFarAbove = 100;   // relative to the requested force
 constexpr double kReleased = 1e-3;  // resolution of pulling off, relative to the range
 // Steps of the approach to a force: the most by which one is longer than the last.
 constexpr double kGrowth = 4;
-constexpr int kMostSteps = 64;  // of sliding to a level
-// Sliding: accuracy of the area and the largest pressure, whose smallest change is a pixel; and a
-// change of N that no longer matters, relative to N before the level.
-constexpr double kCoarseSteps = 0.05, kWornOff = 1e-6;
 constexpr int kTrials = 2;  // number of failures after which no trials are used
 
 // Evaluation of a level at z: it is the solution (or failed), or lies above it; `next` is the next
@@ -175,106 +171,44 @@ Level Path::at_force(double N) {
 }
 
 Level Path::in_steps(double from, double to, Reach reach) {
-    const double end = time_, length = end - accepted_.value_or(end);
-    const bool first = !std::isfinite(from), slides = clock() == PathClock::distance;
-    const int steps = first ? 1 : int(steps_of_time(length, shortest_time()));
-    const bool halved = slides && !first && length > 0;
+    const double end = time_, start = accepted_.value_or(end);
+    Effort effort;
+    const auto solve = [&](double part, double length, double lasting) {
+        time_ = part < 1 ? start + part * (end - start) : end;
+        if (stepper()) history()->step(length, lasting);
+        Level level = (this->*reach)(part < 1 ? from + part * (to - from) : to);
+        effort.add(level);
+        return level;
+    };
     std::optional<State> before;
-    if (steps > 1 || halved) before = history_state();
+    if (stepper() && std::isfinite(from) && end > start) before = history_state();
     level_.reset();
     solved_ = true;
     Level level;
     // A level that is not reached leaves the history before it.
     const auto take_back = [&] {
-        stage_.reset();
         if (before) restore_history(*before);
         time_ = end;
     };
     try {
-        level = halved ? in_sliding_steps(from, to, reach, *before)
-                       : in_equal_steps(steps, from, to, reach);
+        level = before ? stepper()->follow({end - start, reach == &Path::to_force, force_, solve,
+                                            [&] { restore_history(*before); },
+                                            [&] { return first_touch(); }})
+                       : solve(1, 0, 0);
     } catch (...) {
         take_back();
         throw;
     }
-    stage_.reset();
     ++levels_since_move_;
-    if (before && !level.converged) take_back();
+    if (!level.converged) take_back();
     if (relaxes()) level.time = end;
-    if (slides) level.distance = end;
+    if (clock() == PathClock::distance) level.distance = end;
     level_ = level;
     level_place_ = {indenter().x0, indenter().y0};
     return level;
 }
 
-Level Path::in_equal_steps(int steps, double from, double to, Reach reach) {
-    const double end = time_, start = accepted_.value_or(end);
-    Effort effort;
-    Level level;
-    for (int k = 1; k <= steps; ++k) {
-        const double part = double(k) / steps;
-        time_ = k < steps ? start + part * (end - start) : end;
-        level = (this->*reach)(k < steps ? from + part * (to - from) : to);
-        effort.add(level);
-        if (!level.converged) break;
-    }
-    return level;
-}
-
-// A step of sliding has two implicit stages (SDIRK2: Alexander, SIAM J. Numer. Anal. 14, 1977): it
-// is of second order, exact for the volume under a force that changes linearly, never adds
-// material, and damps at once the pressures that a step before left uneven. The number of steps is
-// doubled until N (under a force the depth below first touch), the area and the largest pressure
-// change by less than the accuracy. Where wear takes the force off, its change is relative to that
-// before the level.
-Level Path::in_sliding_steps(double from, double to, Reach reach, const State& before) {
-    const double stage = 1 - 1 / std::numbers::sqrt2;
-    const bool by_force = reach == &Path::to_force;
-    const double start = *accepted_, end = time_;
-    Effort effort;
-    std::optional<LevelValues> last;
-    for (int n = 1;; n *= 2) {
-        if (last) restore_history(before);
-        const double length = (end - start) / n;
-        Level level;
-        const auto go = [&](double part, double lasting) {
-            time_ = part < n ? start + part * length : end;
-            stage_ = {stage * length, lasting * length};
-            level = (this->*reach)(from + part / n * (to - from));
-            effort.add(level);
-            return level.converged;
-        };
-        for (int k = 0; k < n; ++k)
-            if (!go(k + stage, 1 - stage) || !go(k + 1, stage)) return level;
-        if (last) {
-            const double value = by_force ? level.separation : level.force,
-                         other = by_force ? last->separation : last->force,
-                         whole = by_force ? first_touch() - value : level.force;
-            level.sliding_error = std::abs(value - other) / std::abs(whole);
-            level.with_half_the_steps = last;
-            const double accuracy = history()->accuracy();
-            const bool settled = level.sliding_error <= accuracy ||
-                                 (!by_force && std::abs(value - other) <= kWornOff * before.force);
-            const auto near = [&](double a, double b) {
-                return std::abs(a - b) <= kCoarseSteps * b;
-            };
-            const bool alike =
-                near(last->area, level.area) && near(last->pressure_max, level.pressure_max);
-            if ((settled && alike) || n >= kMostSteps) return level;
-        }
-        last = level;
-    }
-}
-
-void Path::begin_step() {
-    if (clock() == PathClock::none) return;
-    const double length = accepted_ ? time_ - *accepted_ : 0.0;
-    const Stage step = stage_.value_or(Stage{length, length});
-    history()->step(step.length, step.lasting);
-}
-
 Level Path::to_separation(double Z0) {
-    begin_step();
     rise_ = 0;  // that of a force may be one far from Z0
     Level level = model_->shift() > 0 ? solve_between_planes(Z0) : model_->solve(Z0);
     finish(level);
@@ -329,14 +263,14 @@ void Path::set_time(double time) {
 
 double Path::stiffness() {
     solve_level_again();
-    const double S = model_->stiffness(Model::kExact);
+    const double S = model_->stiffness(Slope::exact);
     return S / (1 + model_->shift() * S);
 }
 
 double Path::clamped_stiffness() {
     if (!pulls()) return 0 - stiffness();
     solve_level_again();
-    return model_->clamped_stiffness();
+    return 0 - model_->stiffness(Slope::clamped);
 }
 
 // The shift c adds c N^2/2, which is not part of the energy of the bodies.
@@ -458,7 +392,7 @@ Level Path::solve_between_planes(double Z0) {
     }
     double miss = 0;
     const auto judge = [&](const Level& level, double z) {
-        const double slope = model_->stiffness(Model::kForNewton), steep = 1 + c * slope;
+        const double slope = model_->stiffness(Slope::rough), steep = 1 + c * slope;
         miss = z + c * level.force - Z0;
         last_ = {z, level.force, slope};
         // An error of Z0 corresponds to an error of the force of -slope/steep times as much.
@@ -498,16 +432,14 @@ double Path::first_guess(double N, double above, double depth) const {
     const double touching = above - 0.25 * depth;
     double z = touching;
     if (last_force_ > 0 && last_force_ < kFarAbove * N) {
-        const std::optional<double> likely = model_->likely_separation();
-        z = likely.value_or(touching);
+        z = last_separation();
         if (last_ && last_->force > 0)
             z = last_->z + std::log(N / last_->force) * last_->force / last_->slope;
-        else if (likely && rise_ < 0 && levels_since_move_ > 0)
-            // otherwise it is extrapolated to the new place, with the change of the force
+        else if (rise_ < 0 && levels_since_move_ > 0)
             z += std::log(N / last_force_) / rise_;
         if (!(z < above)) z = touching;
     }
-    const double below = model_->closed();
+    const double below = model_->contact_range().full_contact;
     return z > below ? z : 0.5 * (above + below);
 }
 
@@ -516,7 +448,7 @@ double Path::first_guess(double N, double above, double depth) const {
 void Path::require_resolved(Level& level, double N) {
     const double z = level.separation;
     const double ulp = std::nextafter(std::abs(z), kInfinity) - std::abs(z);
-    const double slope = model_->stiffness(Model::kForNewton);
+    const double slope = model_->stiffness(Slope::rough);
     const double resolved = 2 * ulp * std::abs(slope) + model_->force_at_most(2 * ulp);
     if (std::abs(level.force - N) > resolved) {  // no separation has the force N
         level.converged = false;
@@ -530,7 +462,6 @@ void Path::require_resolved(Level& level, double N) {
 }
 
 Level Path::to_force(double N) {
-    begin_step();
     if (!std::isfinite(first_touch()))
         bad_input(
             "no point of the surface lies under body 2, so that it cannot carry a force: it is "
@@ -550,10 +481,8 @@ Level Path::search_force(double N) {
     // Initial depth: the force cannot be reached before half of it.
     double depth = std::numeric_limits<double>::epsilon() *
                    std::max(std::abs(above), std::numeric_limits<double>::min());
-    const std::optional<double> likely =
-        last_force_ > 0.5 * N && last_force_ < 2 * N ? model_->likely_separation() : std::nullopt;
-    if (likely && *likely < above)
-        depth = above - *likely;
+    if (last_force_ > 0.5 * N && last_force_ < 2 * N && last_separation() < above)
+        depth = above - last_separation();
     else
         while (model_->force_at_most(depth) < N) depth *= 2;
     const auto judge = [&](const Level& level, double z) {
@@ -561,7 +490,7 @@ Level Path::search_force(double N) {
         const bool found = std::abs(miss) <= tolerance_ || !level.converged;
         if (found) return Verdict{true, false, z};
         if (!(level.force > 0)) return Verdict{false, true, -kInfinity};
-        rise_ = model_->stiffness(Model::kForNewton) / level.force;
+        rise_ = model_->stiffness(Slope::rough) / level.force;
         return Verdict{false, miss < 0, z - std::log1p(miss) / rise_};
     };
     const auto reach = [&](double next, double z, double highest, int i) {
@@ -571,11 +500,11 @@ Level Path::search_force(double N) {
     };
     constexpr int most = 200;
     bool stuck;
-    Level level = search(*model_, first_guess(N, above, depth), model_->closed(), above, most,
-                         judge, reach, stuck);
+    Level level = search(*model_, first_guess(N, above, depth),
+                         model_->contact_range().full_contact, above, most, judge, reach, stuck);
     if (stuck) require_resolved(level, N);
     if (const double c = model_->shift(); c > 0) {
-        last_ = {level.separation, level.force, model_->stiffness(Model::kForNewton)};
+        last_ = {level.separation, level.force, model_->stiffness(Slope::rough)};
         level.separation += c * level.force;
     }
     return level;
@@ -634,9 +563,9 @@ Level Path::approach_force(double N) {
         if (!first) history()->accept(level);
         jumps = level.jumps;
     }
-    Approach way{N, level.force < N, range, model_->closed() + 1e-6 * range};
+    Approach way{N, level.force < N, range, model_->contact_range().full_contact + 1e-6 * range};
     way.note(level);
-    if (const double slope = model_->stiffness(Model::kForNewton); slope < 0)
+    if (const double slope = model_->stiffness(Slope::rough); slope < 0)
         way.guess = way.z + (N - way.force) / slope;
     State least;
     const auto compare = [&] {

@@ -6,13 +6,6 @@
 
 namespace rsc {
 
-// Number of steps in which a level of a relaxing body is reached after `duration`. A step is of
-// second order: with 16 in the shortest relaxation time or more, or 16 in all, N of bodies with one
-// and four times, pressed, held and withdrawn, is within 1.1 %, mostly 0.4 %.
-inline double steps_of_time(double duration, double shortest_time) {
-    return std::max(1.0, std::ceil(16 * std::min(1.0, duration / shortest_time)));
-}
-
 class Path final {
 public:
     // The forces have the relative tolerance `tolerance`.
@@ -40,13 +33,12 @@ public:
 
     // Sets the time of the following levels, or their distance of sliding if that is the clock. The
     // separation, or under force control the force, changes linearly from the last accepted level,
-    // in up to 16 steps of time, or in as many of sliding as its accuracy needs; a tip that was
-    // moved is at its new place from the beginning of the first step. The first level is applied
-    // instantaneously. Throws Error(bad_input) if the time is not finite or earlier than that of
-    // the last level.
+    // in the steps of the body's Stepper; a tip that was moved is at its new place from the
+    // beginning of the first step. The first level is applied instantaneously. Throws
+    // Error(bad_input) if the time is not finite or earlier than that of the last level.
     void set_time(double time);
     double time() const { return time_; }
-    PathClock clock() const { return history() ? history()->clock() : PathClock::none; }
+    PathClock clock() const { return stepper() ? stepper()->clock() : PathClock::none; }
 
     // True if a level depends on earlier ones. energy() is then the recoverable energy and
     // stiffness() the unloading stiffness; for relaxing bodies, the energy stored in their springs
@@ -67,20 +59,14 @@ public:
     // Moves the tip to (x0, y0). Throws Error(bad_input) if not finite.
     void move_tip(double x0, double y0);
     // Z0 at which the indenter touches the surface [length]; -Infinity if nothing lies under it.
-    double first_touch() const { return model_->first_touch(); }
+    double first_touch() const { return model_->contact_range().first_touch; }
     const Indenter& indenter() const { return model_->indenter(); }
     // Asperities used at present; null for boundary elements.
     std::shared_ptr<const Asperities> asperities() const { return model_->asperities(); }
 
-    // As History. lasting_loads() is that of the level.
-    std::optional<Level> lasting_loads(const Level& level) const {
-        return history() ? history()->lasting_loads(level) : std::nullopt;
-    }
-    std::vector<double> residual_depths() const {
-        return history() ? history()->residual_depths() : std::vector<double>();
-    }
-    ResidualProfile residual_profile() const {
-        return history() ? history()->residual_profile() : ResidualProfile();
+    // What the levels up to the last one, `level`, leave in the bodies.
+    Remains remains(const Level& level) const {
+        return history() ? history()->remains(level) : Remains();
     }
 
     // Resets to the state of a new contact at this position of the tip.
@@ -105,14 +91,10 @@ public:
     // Throws Error(bad_input) if the state does not belong to these bodies. A tip that was moved
     // cannot become one that was not.
     void restore(const State& state);
-    // Later solutions start from this level as from one solved here, where there is no history.
-    void start_from(const Level& level) {
-        model_->start_from(level.separation - model_->shift() * level.force, level);
-    }
 
 private:
     History* history() const { return model_->history(); }
-    double shortest_time() const { return history() ? history()->shortest_time() : kInfinity; }
+    const Stepper* stepper() const { return history() ? history()->stepper() : nullptr; }
     void put_tip(double x0, double y0);
     State history_state() const;
     void restore_history(const State& state);
@@ -124,19 +106,10 @@ private:
     }
     void solve_level_again();
 
-    // A stage of a step of sliding: History::step().
-    struct Stage {
-        double length, lasting;
-    };
-    std::optional<Stage> stage_;
-
-    // Reaches a level in steps, on which its separation, or its force, changes linearly `from` that
-    // of the last accepted level.
+    // Reaches a level with this separation, or force, `from` that of the last accepted level.
     using Reach = Level (Path::*)(double);
     Level in_steps(double from, double to, Reach reach);
-    Level in_equal_steps(int steps, double from, double to, Reach reach);
-    Level in_sliding_steps(double from, double to, Reach reach, const State& before);
-    Level to_separation(double Z0);  // as at_separation and at_force, in one step of time
+    Level to_separation(double Z0);  // as at_separation and at_force, in one step
     Level to_force(double N);
     Level search_force(double N);
     Level follow_to_force(double N);
@@ -148,7 +121,8 @@ private:
     [[noreturn]] void refuse_closing(double N, const Level& closing) const;
     // Accepts a level if it converged, and adds the quantities that depend on the nominal area.
     void finish(Level& level);
-    void begin_step();
+    // That of the last accepted level, as the model counts it.
+    double last_separation() const { return separation_ - model_->shift() * force_; }
 
     std::unique_ptr<Model> model_;
     double tolerance_;

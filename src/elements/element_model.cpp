@@ -42,7 +42,7 @@ public:
         find_top();
     }
 
-    double stiffness(double) override {
+    double stiffness(Slope) override {
         // The error of the answer is of second order in the tolerance.
         constexpr double tolerance = 1e-5;
         const double slope = solver_.stiffness(tolerance, accepted_);
@@ -77,11 +77,7 @@ public:
         const auto smooth = indenter_.shape->smooth(E);
         return smooth ? std::min(punch, smooth->force(depth)) : punch;
     }
-    std::optional<double> likely_separation() const override {
-        if (past_.empty() || past_[0].pixels.empty() || !(past_[0].separation < top_))
-            return std::nullopt;
-        return past_[0].separation;
-    }
+    ContactRange contact_range() const override { return {.first_touch = top_}; }
     double shift() const override { return products_->shift(); }
     void keep(ArchiveWriter& to) const override {
         to(past_, accepted_);
@@ -141,7 +137,7 @@ private:
         return pixel_area() * std::accumulate(level.p.begin(), level.p.end(), 0.0);
     }
     double power_of_depth(double otherwise) const;
-    double wear_in_step() const;
+    double lowering_in_step() const;
     void solve_more(double tolerance, int iterations, std::optional<double> sum,
                     ElementsOutcome& all);
     bool solve_roughly(double N, double& power, ElementsOutcome& all);
@@ -351,8 +347,8 @@ double ElementModel::power_of_depth(double otherwise) const {
     return grown >= 1 ? grown : otherwise;
 }
 
-// Depth of wear in this step, expected from the mean of the last pressures, weighted by themselves.
-double ElementModel::wear_in_step() const {
+// Depth of lowering in this step, expected from the mean of the last pressures, weighted by themselves.
+double ElementModel::lowering_in_step() const {
     if (!(rate() > 0)) return 0;
     const std::vector<double>& p = past_[0].p;
     return rate() * std::inner_product(p.begin(), p.end(), p.begin(), 0.0) /
@@ -421,7 +417,7 @@ std::optional<Level> ElementModel::solve_under(double N) {
     if (cold && (!solve_roughly(N, power, outcome) || far())) return std::nullopt;
     power = power_of_depth(power);
     const double depth = top_ - past_[0].separation;
-    double expected = top_ - depth * std::pow(N / force(past_[0]), 1 / power) - wear_in_step(),
+    double expected = top_ - depth * std::pow(N / force(past_[0]), 1 / power) - lowering_in_step(),
            lowest = expected - kMargin * std::abs(expected - past_[0].separation);
     if (cold) lowest -= kColdMargin * (top_ - expected);
     constexpr int trials = 4;

@@ -11,7 +11,7 @@ class Lowering {
 public:
     virtual ~Lowering() = default;
     // The following levels end a step of this length, of which `lasting` remains when they are
-    // accepted (Path: the stages of a step).
+    // accepted (Leg::solve).
     virtual void step(double length, double lasting) = 0;
     // Depth by which a unit pressure lowers a point in this step, and for good [length/pressure].
     virtual double rate() const = 0;
@@ -22,9 +22,7 @@ public:
     virtual void measure(Level& level, const HeightMap& map, const Indenter& indenter,
                          const std::vector<double>& depths,
                          const std::vector<double>& yielded) const = 0;
-    // As History.
-    virtual PathClock clock() const = 0;
-    virtual double accuracy() const = 0;
+    virtual const Stepper& stepper() const = 0;  // of the distance of sliding
 };
 
 // How earlier loads on the points of a map act on in a body that relaxes (physics/relaxation). The
@@ -38,7 +36,7 @@ public:
     // again until loads are accepted.
     virtual void step(double dt) = 0;
     virtual double compliance() const = 0;
-    virtual double shortest_time() const = 0;  // as History
+    virtual const Stepper& stepper() const = 0;  // of time
     // Points that have ever carried a load, in increasing order, and the rest of each at the end of
     // the step.
     virtual const std::vector<std::int32_t>& places() const = 0;

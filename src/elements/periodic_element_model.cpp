@@ -21,7 +21,7 @@ public:
         set_heights();
     }
 
-    double stiffness(double) override {
+    double stiffness(Slope) override {
         if (!touches_) return 0;
         return solver_.full() ? kNotComputed : 0 - area() * solver_.stiffness(accepted_);
     }
@@ -51,7 +51,7 @@ public:
             solver_.press(scale() * p, options_.tolerance, options_.max_iterations);
         return report(solver_.separation(), outcome);
     }
-    double closed() const override { return solver_.closed(); }
+    ContactRange contact_range() const override { return {solver_.closed(), top_}; }
     void keep(ArchiveWriter& to) const override {
         to(touches_, accepted_);
         solver_.keep(to);

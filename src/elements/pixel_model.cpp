@@ -99,7 +99,7 @@ void PixelModel::solve_again(double z, const Level& level) {
     accepted_ = true;
 }
 
-ResidualProfile PixelModel::residual_profile() const {
+Remains PixelModel::remains(const Level& level) const {
     ResidualProfile profile{{}, {}, {}, heights_.dx, heights_.dy};
     for (std::size_t k = 0; k < lowered_points_.size(); ++k) {
         if (!(lowered_points_[k] > 0)) continue;
@@ -108,17 +108,13 @@ ResidualProfile PixelModel::residual_profile() const {
         profile.y.push_back(y(pixel.y));
         profile.depth.push_back(lowered_points_[k]);
     }
-    return profile;
-}
-
-std::optional<Level> PixelModel::lasting_loads(const Level& level) const {
-    if (!loads_) return {};
+    if (!loads_) return {.residual_profile = std::move(profile)};
     Level lasting = level;
     lasting.pixels.index.clear();
     for (const Pixel& pixel : loaded_pixels())
         lasting.pixels.index.push_back(pixel.y * frame.nx + pixel.x);
     lasting.pixels.pressure = loads_->lasting();
-    return lasting;
+    return {.lasting_loads = std::move(lasting)};
 }
 
 std::vector<Pixel> PixelModel::loaded_pixels() const {

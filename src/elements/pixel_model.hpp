@@ -11,7 +11,6 @@ namespace rsc {
 
 class PixelModel : public Model, private History, protected CutMap {
 public:
-    double first_touch() const final { return top_; }
     const Indenter& indenter() const final { return indenter_; }
     History* history() final { return loads_ || lowering_ || limited() ? this : nullptr; }
     void solve_again(double z, const Level& level) final;
@@ -32,6 +31,11 @@ protected:
     // The length of the step, of time or of the path, has changed.
     virtual void step_changed() = 0;
     virtual void forget_solutions() = 0;
+    // Later solutions start from this level at the separation z.
+    virtual void start_from(double z, const Level& level) {
+        (void)z;
+        (void)level;
+    }
     // K q at some pixels, for pressures q on the points of the load memory.
     virtual std::vector<double> deflections(const std::vector<Pixel>& where,
                                             const std::vector<double>& q) = 0;
@@ -68,9 +72,9 @@ private:
     // of bodies that wear; or loads on a relaxing body.
     std::vector<double> write() const final;
     void read(const std::vector<double>& numbers) final;
-    PathClock clock() const final { return lowering_ ? lowering_->clock() : History::clock(); }
-    double shortest_time() const final { return loads_ ? loads_->shortest_time() : kInfinity; }
-    double accuracy() const final { return lowering_ ? lowering_->accuracy() : 0.0; }
+    const Stepper* stepper() const final {
+        return loads_ ? &loads_->stepper() : lowering_ ? &lowering_->stepper() : nullptr;
+    }
     void step(double length, double lasting) final {
         if (loads_) loads_->step(length);
         if (lowering_) lowering_->step(length, lasting);
@@ -78,8 +82,7 @@ private:
     }
     void accept_loads(Level& level);
     void read_depths(const std::vector<double>& numbers);
-    std::optional<Level> lasting_loads(const Level& level) const final;
-    ResidualProfile residual_profile() const final;
+    Remains remains(const Level& level) const final;
 
     // Adds to the depths of the pixels with which `visit` calls its argument.
     template <class Visit>

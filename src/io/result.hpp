@@ -81,8 +81,8 @@ struct Result {
     ResidualProfile residual_profile;  // of elements after the last level; empty: not written
     PackedContacts contacts;           // empty: not written
     std::vector<LevelPixels> pixels;   // [step], elements; empty where they are not written
-    std::optional<HeightMap> heights;  // none: not written
-    Fields fields;                     // empty: not written
+    std::shared_ptr<const HeightMap> heights;  // null: not written
+    Fields fields;                             // empty: not written
     std::shared_ptr<const Measured> measured;  // of a measured map; null: not written
     ComparedLevels compared;                   // empty: not written
 

@@ -48,7 +48,7 @@ ResidualProfile lowered_summits(const HeightMap& map, bool repeats, const Asperi
                                 const std::vector<double>& depths);
 
 // A level whose fields are requested. `lowered`: plastic residual after the level; `lasting`:
-// Path::lasting_loads().
+// Remains::lasting_loads.
 struct FieldLevel {
     std::int32_t step;
     const Level* level;

@@ -111,7 +111,8 @@ struct WindowPressures {
 };
 
 // What the recorder of a realization works on.
-struct GridBodies;  // grid_bodies.hpp
+struct GridBodies;  // contact/grid_bodies.hpp
+struct GridError;
 
 struct RecordedBodies {
     const Case& settings;
@@ -188,6 +189,13 @@ struct Physics {
     void (*require_sound)(const BodyPhysics&) = nullptr;
     // Whether a run of asperities may compare some levels with elements of its own accord.
     bool (*compares_itself)(const Case&) = nullptr;
+    // Elements: the errors of N and A by the grid, where other things than the sizes of the contacts
+    // limit them; `few`: those by the sizes.
+    GridError (*grid_error)(const Level&, const HeightMap&, const Indenter&, const BodyPhysics&,
+                            const GridError& few) = nullptr;
+    // Elements: whether the grid is too coarse for the length over which it acts, or the roughness
+    // too small.
+    bool (*doubts_range)(const Level&, const HeightMap&, const BodyPhysics&) = nullptr;
     double bytes_per_point = 0;                // of elements
     double (*bytes)(double points) = nullptr;  // of elements, beside these
     // Prints sentences after the levels of a run.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "io/result.hpp"
-#include "run/job.hpp"
+#include "problem/job.hpp"
 
 namespace rsc {
 

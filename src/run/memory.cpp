@@ -2,6 +2,7 @@
 
 #include "interaction/products.hpp"
 #include "physics/physics.hpp"
+#include "run/realize.hpp"
 
 namespace rsc {
 namespace {
@@ -73,8 +74,7 @@ double area_under(const Job& job, double Z0) { return under_indenter(job, Z0, 0)
 
 // Number of grid points of the elements.
 double points_of_elements(const Job& job, double points_per_wave) {
-    if (job.given_heights)
-        return static_cast<double>(job.given_heights->nx) * job.given_heights->ny;
+    if (job.heights) return static_cast<double>(job.heights->nx) * job.heights->ny;
     return job.spectrum ? std::pow(points_per_wave * job.spectrum->L_lambda_s, 2) : 0;
 }
 
@@ -191,7 +191,7 @@ private:
         constexpr double of_contact = 170, deep = 50, of_table = 1500, most_tables = 90e6;
         const double tables = std::min(most_tables, of_table * under);
         const double level = tables + heights + (of_contact + deep * under / points_) * under;
-        // Groups of levels side by side (job.hpp): a contact for each thread.
+        // Groups of levels side by side (realize.hpp): a contact for each thread.
         const double beside = tables + of_contact * under;
         return std::max(modes, level + (groups_at_once(under) - 1) * beside);
     }
@@ -245,10 +245,9 @@ Unknowns expected_unknowns(const Job& job) {
     const std::string about = format("about %.0f", step * std::round(most / step));
     if (!elements)
         return {most, "asperities, " + about + " under the indenter at the largest load"};
-    const int n = job.given_heights ? 0 : element_points(job.settings, *job.spectrum);
-    const std::string grid = job.given_heights
-                                 ? format("%d x %d", job.given_heights->nx, job.given_heights->ny)
-                                 : format("%d x %d", n, n);
+    const int n = job.heights ? 0 : element_points(job.settings, *job.spectrum);
+    const std::string grid =
+        job.heights ? format("%d x %d", job.heights->nx, job.heights->ny) : format("%d x %d", n, n);
     if (flats) return {points, "elements, a grid of " + grid + " points with a pressure at each"};
     return {most, "elements, a grid of " + grid + " points; unknowns are the pressures at those " +
                       "under the indenter, " + about + " at the largest load"};

@@ -1,7 +1,7 @@
 // Sizes of a case and its memory, before it runs.
 #pragma once
 
-#include "run/job.hpp"
+#include "problem/job.hpp"
 
 namespace rsc {
 

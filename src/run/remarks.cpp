@@ -137,7 +137,7 @@ struct Remarks {
             case Cause::border:
                 return up_to(
                     "edge_contacts", [](auto& l) { return l.edge_contacts; }, false);
-            case Cause::adhesion_range:
+            case Cause::range:
                 return format(
                     " (cohesive_resolution down to %.3g)",
                     4 / largest(cause, [](auto& l) { return 4 / l.cohesive_resolution; }));
@@ -174,7 +174,7 @@ struct Remarks {
             case Cause::missed_contact:
                 return finer_by(2,
                                 "; a map with smaller steps, or a smaller separation, removes it");
-            case Cause::adhesion_range:
+            case Cause::range:
                 return finer_by(largest(cause, [](auto& l) { return 4 / l.cohesive_resolution; }),
                                 "; only a map with smaller steps removes this") +
                        " or a larger adhesion_range";

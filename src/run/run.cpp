@@ -12,6 +12,7 @@
 #include "observe/regimes.hpp"
 #include "run/checkpoint.hpp"
 #include "run/compare.hpp"
+#include "run/realize.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
 #include "run/team.hpp"
@@ -306,12 +307,11 @@ namespace {
 // Moves what a realization leaves into its result.
 void take_realization(Result& result, Job& job, Realization& r) {
     result.asperities = std::move(r.asperities);
-    result.residual_depth = std::move(r.residual_depth);
-    result.residual_profile = std::move(r.residual_profile);
+    result.residual_depth = std::move(r.remains.residual_depths);
+    result.residual_profile = std::move(r.remains.residual_profile);
     result.measured = job.measured;
     result.fields = std::move(r.fields);
-    if (job.settings.output.heights)
-        result.heights = std::move(r.heights ? r.heights : job.given_heights);
+    if (job.settings.output.heights) result.heights = std::move(r.heights);
 }
 
 }  // namespace

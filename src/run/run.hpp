@@ -3,7 +3,7 @@
 
 #include "case/case.hpp"
 #include "case/options.hpp"
-#include "run/job.hpp"
+#include "problem/job.hpp"
 
 namespace rsc {
 

@@ -3,7 +3,7 @@
 
 #include "contact/level.hpp"
 #include "observe/record.hpp"
-#include "run/job.hpp"
+#include "problem/job.hpp"
 #include "run/run.hpp"
 
 namespace rsc {

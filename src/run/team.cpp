@@ -3,6 +3,7 @@
 #include "base/archive.hpp"
 #include "base/parallel.hpp"
 #include "run/checkpoint.hpp"
+#include "run/realize.hpp"
 #include "run/signals.hpp"
 
 namespace rsc {

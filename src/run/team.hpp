@@ -2,7 +2,7 @@
 #pragma once
 
 #include "case/case.hpp"
-#include "run/job.hpp"
+#include "problem/job.hpp"
 #include "run/run.hpp"
 
 namespace rsc {

@@ -14,7 +14,7 @@ enum class Cause {
     beyond_law,
     few_points,
     layer,
-    adhesion_range,
+    range,  // of an attraction
     outside_calibration,
     missed_contact,
     model_error,

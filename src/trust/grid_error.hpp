@@ -17,11 +17,6 @@ namespace rsc {
 // The class of the errors of elements.
 GridBodies grid_bodies(bool measured, const Indenter& indenter);
 
-// Expected relative errors of N and A at a separation.
-struct GridError {
-    double force = 0, area = 0;
-};
-
 struct PlaceOfTip {
     double x, y;
     friend bool operator==(const PlaceOfTip&, const PlaceOfTip&) = default;

@@ -1,9 +1,7 @@
 #include "trust/judge.hpp"
 
 #include "base/error.hpp"
-#include "physics/adhesion/sticking.hpp"
 #include "physics/physics.hpp"
-#include "surface/form.hpp"
 #include "trust/asperity_error.hpp"
 #include "trust/counts.hpp"
 
@@ -31,20 +29,6 @@ constexpr double kMuchFilled = 0.01;
 // with 30 % of them N of elements was 1 to 3.4 % too low.
 constexpr double kScattered = 0.15;
 
-// Elements with adhesion. Smallest cohesive resolution. Error of N over the force of the traction
-// s0 on a strip of one pixel along the edge of what attracts: edges are resolved to a pixel only,
-// and errors of separate contacts cancel on average (smooth spheres: 0.25 to 1.05 for Maugis's
-// lambda from 0.3 to 4). Error of A: of w on the area, times the inverse of
-// the resolution, and of edges, times h over the radius. Found by hand; test_adhesive_elements
-// checks that 90 % are within.
-constexpr double kResolved = 4, kEdgeError = 1.1, kWorkError = 0.8, kRadiusError = 0.8;
-// Ranges above this share of the rms height under the contact are a doubt, except for bodies that
-// are smoother than a share of the range.
-constexpr double kBridged = 0.5, kSmooth = 1e-3;
-// Without a range: the error of the place of edges in pixels (JKR's sphere with 6 to 64 pixels to
-// the contact radius at zero force: 0.12).
-constexpr double kEdgeShift = 0.2;
-
 bool known_shape(const Indenter& indenter) {
     const std::string_view name = indenter.shape->name();
     return name == "sphere" || name == "paraboloid" || indenter.shape->flat();
@@ -57,7 +41,7 @@ bool calibrated(const Level& level, const Path& contact, const SolverOptions& op
     const auto compared = [&](const Physics* p) {
         return p->calibrated && p->calibrated(options.physics, layers);
     };
-    const std::vector<double> depths = contact.residual_depths();
+    const std::vector<double> depths = contact.remains(level).residual_depths;
     const auto yielded = std::ranges::count_if(depths, [](double depth) { return depth > 0; });
     return is_compared(options.law) && options.interaction == Interaction::point &&
            options.selection == Selection::overlap &&
@@ -93,82 +77,6 @@ double scattered_share(const Measured* measured) {
     return measured ? double(measured->missing - std::ranges::count(measured->filled, 1)) /
                           double(measured->points())
                     : 0.0;
-}
-
-// Attraction without a range: the edge of a contact of radius a is known to a part of a pixel, by
-// which N, at a separation, changes with dN/da = -sqrt(8 pi w E* a); the errors of all contacts
-// have one sign.
-Doubt edges_without_range(const Level& level, const Indenter& indenter, const HeightMap& map,
-                          const GridError& few, double work) {
-    Doubt doubt{Cause::grid};
-    if (level.contacts == 0 || level.force == 0) return doubt;
-    const double h = map.step();
-    double dN = 0, length = 0;
-    for (const double a : level.a) {
-        dN += kEdgeShift * h * std::sqrt(8 * std::numbers::pi * work * indenter.E_star * a);
-        length += 2 * std::numbers::pi * a;
-    }
-    doubt.force = dN / std::abs(level.force) + few.force;
-    doubt.area = few.area + kEdgeShift * h * length / level.area;
-    doubt.serious = doubt.force > kMuchError;
-    return doubt;
-}
-
-Doubt edges_of_adhesion(const Level& level, const Indenter& indenter, const HeightMap& map,
-                        const GridError& few, const SolverOptions& options) {
-    Doubt doubt{Cause::grid};
-    if (level.force == 0) return doubt;
-    const auto& [work, range] = options.physics.of<Adhesion>();
-    if (!(range > 0)) return edges_without_range(level, indenter, map, few, work);
-    const double traction = work / range, attracting = level.area + level.cohesive_area,
-                 pulled = traction * attracting, contacts = std::max(level.contacts, 1);
-    // Of n equal contacts the edges are longer by sqrt(n), and their errors cancel as much.
-    double dN = kEdgeError * traction * map.step() * 2 * std::sqrt(std::numbers::pi * attracting);
-    if (level.contacts > 0) {
-        dN += few.force * std::max(level.force + pulled, 0.0);
-        doubt.area =
-            few.area +
-            (kWorkError / level.cohesive_resolution +
-             kRadiusError * std::sqrt(std::numbers::pi * map.dx * map.dy * contacts / level.area)) /
-                std::sqrt(contacts);
-    }
-    doubt.force = dN / std::abs(level.force);
-    doubt.serious = doubt.force > kMuchError;
-    return doubt;
-}
-
-// Whether the range of an attraction is not small beside the rms height of the rough body where it
-// touches, beside its form there, so that it and not the bodies decides how far gaps are bridged.
-// Bodies without roughness have none.
-bool bridges_roughness(const Level& level, const HeightMap& map, double range) {
-    const LevelPixels& pixels = level.pixels;
-    if (pixels.index.empty()) return false;
-    int left = pixels.columns, right = 0;
-    for (const std::int32_t index : pixels.index) {
-        left = std::min(left, index % pixels.columns);
-        right = std::max(right, index % pixels.columns);
-    }
-    const int low = pixels.index.front() / pixels.columns,
-              rows = pixels.index.back() / pixels.columns - low + 1;
-    HeightMap part;
-    part.allocate(right - left + 1, rows, right - left + 1);
-    part.dx = map.dx;
-    part.dy = map.dy;
-    for (const int j : indices(rows)) std::fill_n(part.row(j), part.nx, kNotComputed);
-    const auto number = [](double x, double step, int n) {
-        const int k = int(std::lround(x / step)) % n;
-        return k < 0 ? k + n : k;
-    };
-    for (const auto k : indices(pixels.index))
-        part.row(pixels.index[k] / pixels.columns - low)[pixels.index[k] % pixels.columns - left] =
-            map(number(pixels.x(k) - map.x0, map.dx, map.nx),
-                number(pixels.y(k) - map.y0, map.dy, map.ny));
-    try {
-        const double rms = detrend(part, Detrend::quadratic).rms;
-        return rms > kSmooth * range && range > kBridged * rms;
-    } catch (const Error&) {  // too few points for a form
-        return false;
-    }
 }
 
 // The errors of the quantities of elements: by the resolution, by the steps of sliding, and the
@@ -253,13 +161,13 @@ std::vector<Doubt> Judge::of_elements(const Level& level, Path& contact, bool by
     std::vector<Doubt> doubts;
     const bool attracts = level.cohesive_area > 0;
     if (level.contacts == 0 && !attracts) {
-        if (level.separation < touch_between(contact)) doubts.push_back({Cause::missed_contact});
+        if (level.separation < touch_between(level, contact))
+            doubts.push_back({Cause::missed_contact});
         return doubts;
     }
-    const double range = options_.physics.of<Adhesion>().range;
-    if (range > 0 &&
-        (level.cohesive_resolution < kResolved || bridges_roughness(level, *surface_.map, range)))
-        doubts.push_back({Cause::adhesion_range});
+    for (const Physics* p : physics_asked(options_.physics))
+        if (p->doubts_range && p->doubts_range(level, *surface_.map, options_.physics))
+            doubts.push_back({Cause::range});
     doubts.push_back(grid(level, contact));
     for (const Physics* p : physics_asked(options_.physics))
         if (Doubt& few = doubts.back(); by_force && p->further_approach)
@@ -280,10 +188,10 @@ std::vector<Doubt> Judge::of_elements(const Level& level, Path& contact, bool by
 
 // Upper bound of the Z0 at which the bodies touch, between the points of elements, too; -Infinity
 // if the surface is lower than its map.
-double Judge::touch_between(const Path& contact) {
+double Judge::touch_between(const Level& level, const Path& contact) {
     const Indenter& indenter = contact.indenter();
     const PlaceOfTip tip{indenter.x0, indenter.y0};
-    if (!surface_.map || contact.relaxes() || !contact.residual_profile().x.empty())
+    if (!surface_.map || contact.relaxes() || !contact.remains(level).residual_profile.x.empty())
         return -kInfinity;
     if (between_at_ == tip) return between_;
     between_at_ = tip;
@@ -308,9 +216,15 @@ Doubt Judge::grid(const Level& level, Path& contact) const {
     const double side = map.step();
     const GridError by_size =
         error_of_grid(level, bodies(indenter), indenter.shape->edge(side), side);
-    if (options_.physics.of<Adhesion>().work > 0)
-        return edges_of_adhesion(level, indenter, map, by_size, options_);
     Doubt doubt{Cause::grid};
+    for (const Physics* p : physics_asked(options_.physics)) {
+        if (!p->grid_error) continue;
+        const GridError error = p->grid_error(level, map, indenter, options_.physics, by_size);
+        doubt.force = error.force;
+        doubt.area = error.area;
+        doubt.serious = !(error.force <= kMuchError);
+        return doubt;
+    }
     const double stiffness = std::isnan(level.stiffness) ? contact.stiffness() : level.stiffness;
     const GridError crests = error_of_crests(level, stiffness, map, indenter, surface_.curvature);
     doubt.force = std::max(by_size.force, crests.force);

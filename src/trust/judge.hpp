@@ -37,7 +37,7 @@ public:
 private:
     std::vector<Doubt> of_asperities(Level& level, const Path& contact) const;
     std::vector<Doubt> of_elements(const Level& level, Path& contact, bool by_force);
-    double touch_between(const Path& contact);
+    double touch_between(const Level& level, const Path& contact);
     Doubt grid(const Level& level, Path& contact) const;
     GridBodies bodies(const Indenter& indenter) const;  // of elements
 

@@ -5,7 +5,7 @@
 #include "check.hpp"
 #include "contact/answers.hpp"
 #include "physics/indenter/shapes.hpp"
-#include "run/prepare.hpp"
+#include "problem/bodies.hpp"
 #include "support/height_maps.hpp"
 #include "support/judged.hpp"
 #include "support/paths.hpp"

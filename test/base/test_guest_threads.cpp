@@ -8,7 +8,7 @@
 #include "base/parallel.hpp"
 #include "check.hpp"
 #include "elements/pixel_products.hpp"
-#include "run/prepare.hpp"
+#include "problem/bodies.hpp"
 #include "support/library.hpp"
 
 namespace test_guest_threads {

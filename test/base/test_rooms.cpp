@@ -12,10 +12,10 @@ namespace fs = std::filesystem;
 // From the bottom to the top; rooms of equal rank do not include each other.
 int rank_of(const std::string& room) {
     static const std::map<std::string, int> ranks = {
-        {"base", 0},     {"surface", 1},      {"interaction", 2}, {"contact", 3},
-        {"case/key", 4}, {"asperities", 5},   {"elements", 5},    {"physics/row", 6},
-        {"physics", 7},  {"contact/make", 8}, {"trust", 9},       {"observe", 10},
-        {"case", 11},    {"io", 12},          {"run", 13},        {"api", 14}};
+        {"base", 0},       {"surface", 1},  {"interaction", 2}, {"contact", 3}, {"case/key", 4},
+        {"asperities", 5}, {"elements", 5}, {"physics/row", 6}, {"physics", 7}, {"contact/make", 8},
+        {"trust", 9},      {"observe", 10}, {"case", 11},       {"io", 12},     {"problem", 13},
+        {"run", 14},       {"api", 15}};
     const bool physics = room.starts_with("physics/") && room != "physics/row";
     const auto found = ranks.find(physics ? "physics" : room);
     return found == ranks.end() ? -1 : found->second;

@@ -28,7 +28,7 @@ public:
     const Indenter& indenter() const override { return indenter_; }
     History* history() override { return this; }
     void move_tip(double, double) override {}
-    double first_touch() const override { return kTop; }
+    ContactRange contact_range() const override { return {.first_touch = kTop}; }
     double shift() const override { return shift_; }
     Level solve(double z, bool trial) override {
         const bool wrong = trial && wrong_ != 0;
@@ -48,7 +48,7 @@ public:
     }
     void solve_again(double z, const Level&) override { (void)solve(z, false); }
     void forget() override {}
-    double stiffness(double) override { return slope_; }
+    double stiffness(Slope) override { return slope_; }
     double energy() const override {
         const double N = std::pow(std::max(kTop - z_, 0.0), 1.5);
         return 0.4 * std::pow(std::max(kTop - z_, 0.0), 2.5) + 0.5 * shift_ * N * N;

@@ -269,7 +269,7 @@ void along_a_path(const HeightMap& map, const Indenter& tip, double hardness, co
         hard = std::max(hard, level.plastic_contacts);
     }
     CHECK(large > 1 && (hard > 0) == std::isfinite(hardness));
-    const ResidualProfile profile = contact->residual_profile();
+    const ResidualProfile profile = contact->remains(*contact->level()).residual_profile;
     CHECK(profile.x.empty() || (profile.dx == map.dx && profile.dy == map.dy));
     std::size_t next = 0;
     for (const std::size_t k : indices(t.n())) {

@@ -1,8 +1,8 @@
-// Heights that elements do not read are not kept (run/prepare.hpp, make_element_surface): levels
+// Heights that elements do not read are not kept (problem/bodies.hpp, make_element_surface): levels
 // are the same, bit for bit.
 #include "check.hpp"
 #include "physics/indenter/shapes.hpp"
-#include "run/job.hpp"
+#include "run/realize.hpp"
 
 namespace test_high_points {
 

@@ -180,9 +180,11 @@ TEST(test_not_finite) {
     const std::string path = folder / "never.nc";
     for (const char* variable : {"contact_force", "map_pressure", "height"}) {
         Result r = sample::result(1);
+        const auto heights = std::make_shared<HeightMap>(r.heights->copy());
         (variable[0] == 'c'   ? r.contacts.force[5]
          : variable[0] == 'm' ? r.observations.map_pressure.value[0]
-                              : r.heights->row(2)[3]) = std::nan("");
+                              : heights->row(2)[3]) = std::nan("");
+        r.heights = heights;
         const std::string message =
             ::refusal([&] { write_result(r, path, {}); }, Failure::internal);
         CHECK(message.find(variable) != std::string::npos && !fs::exists(path));

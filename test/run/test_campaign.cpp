@@ -10,7 +10,7 @@
 #include "case/registry.hpp"
 #include "check.hpp"
 #include "run/checkpoint.hpp"
-#include "run/job.hpp"
+#include "run/realize.hpp"
 #include "run/run.hpp"
 #include "run/team.hpp"
 #include "support/refused.hpp"

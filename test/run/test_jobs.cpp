@@ -4,7 +4,7 @@
 #include "case/registry.hpp"
 #include "contact/equivalent.hpp"
 #include "physics/indenter/shapes.hpp"
-#include "run/prepare.hpp"
+#include "problem/bodies.hpp"
 #include "support/height_maps.hpp"
 #include "support/refused.hpp"
 #include "support/runs.hpp"

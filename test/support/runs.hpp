@@ -2,6 +2,7 @@
 #pragma once
 
 #include "case/read_case.hpp"
+#include "run/realize.hpp"
 #include "run/run.hpp"
 #include "support/result_reader.hpp"
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "io/result.hpp"
-#include "run/job.hpp"
-#include "run/prepare.hpp"
+#include "problem/bodies.hpp"
+#include "run/realize.hpp"
 #include "support/runs.hpp"
 
 namespace sample {
@@ -34,7 +34,7 @@ inline Result result(int realizations) {
     if (realizations > 1) return result;
     keep_contacts(result, last.levels, Contacts::all);
     result.asperities = last.asperities;
-    result.heights = make_surface(c, 1, 1).map;
+    result.heights = std::make_shared<HeightMap>(make_surface(c, 1, 1).map);
     return result;
 }
 

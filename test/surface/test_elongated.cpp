@@ -1,6 +1,6 @@
 // Single elongated summits, up to 1:20 in curvature, against elements on the same points.
 #include "check.hpp"
-#include "run/prepare.hpp"
+#include "problem/bodies.hpp"
 #include "support/height_maps.hpp"
 #include "support/paths.hpp"
 #include "surface/detection.hpp"

@@ -8,4 +8,9 @@ namespace rsc {
 
 extern const Physics kAdhesion;
 
+// As Physics::grid_error and doubts_range.
+GridError adhesion_grid_error(const Level& level, const HeightMap& map, const Indenter& indenter,
+                              const BodyPhysics& bodies, const GridError& few);
+bool adhesion_range_in_doubt(const Level& level, const HeightMap& map, const BodyPhysics& bodies);
+
 }  // namespace rsc

@@ -15,18 +15,19 @@ public:
                        const SolverOptions& options)
         : path_(std::make_unique<AdhesivePath>(asperities, indenter, options)) {}
 
-    double stiffness(double accuracy) override {
-        if (fresh_ && accuracy >= kForNewton) return path_->here.dforce;
+    double stiffness(Slope which) override {
+        if (which == Slope::clamped && stands())
+            return 0 - path_->solver.clamped_stiffness(path_->here.states);
+        if (fresh_ && which == Slope::rough) return path_->here.dforce;
         if (std::exchange(fresh_, false))
             slope_ = stands() ? path_->solver.slope(path_->here.states) : kNotComputed;
         return slope_;
     }
-    double clamped_stiffness() override {
-        return stands() ? path_->solver.clamped_stiffness(path_->here.states) : stiffness(kExact);
-    }
     double energy() const override { return energy_; }
     void move_tip(double x0, double y0) override;
-    double first_touch() const override { return path_->ranking.highest(); }
+    ContactRange contact_range() const override {
+        return {.first_touch = path_->ranking.highest()};
+    }
     const Indenter& indenter() const override { return path_->indenter; }
     std::shared_ptr<const Asperities> asperities() const override {
         return {std::shared_ptr<void>(), &path_->asperities};
@@ -156,7 +157,7 @@ std::optional<Level> AdhesiveAsperities::solve_under(double N) {
 void AdhesiveAsperities::move_tip(double x0, double y0) {
     AdhesivePath& my = *path_;
     if (x0 == my.indenter.x0 && y0 == my.indenter.y0) return;
-    (void)stiffness(kExact);
+    (void)stiffness(Slope::exact);
     if (!my.accepted.asperity.empty()) {
         // with the summits of the difference at the new place
         std::unique_ptr<AdhesivePath> there = my.of_difference ? path_at(x0, y0) : nullptr;

@@ -14,16 +14,17 @@ public:
                      const SolverOptions& options)
         : state_(heights, indenter, options) {}
 
-    double stiffness(double) override { return state_.stiffness(); }
+    double stiffness(Slope) override { return state_.stiffness(); }
     double energy() const override { return state_.now.energy; }
-    double first_touch() const override { return state_.top; }
+    ContactRange contact_range() const override {
+        return {state_.flats ? state_.flats->closed() : -kInfinity, state_.top};
+    }
     const Indenter& indenter() const override { return state_.indenter; }
     History* history() override { return this; }
     void move_tip(double x0, double y0) override { state_.move(x0, y0); }
     void forget() override { state_.forget(); }
     Level solve(double Z0, bool trial) override { return state_.solve(Z0, trial); }
     void solve_again(double, const Level&) override {}  // read() has
-    double closed() const override { return state_.flats ? state_.flats->closed() : -kInfinity; }
     double force_at_most(double) override { return 0; }
     void keep(ArchiveWriter& to) const override {
         exchange(to, state_);

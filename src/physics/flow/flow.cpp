@@ -55,9 +55,8 @@ GapMap gap_of(LevelSource& source) {
         const Pressures pressures = pressures_of(source.level.pixels);
         std::vector<std::int32_t> touches(whole.points(), 0);
         for (const auto& [point, load] : pressures) touches[at(point)] = load.touches;
-        const ResidualProfile depths = contact.residual_profile();
+        const auto [none, depths, lasting] = contact.remains(source.level);
         const HeightMap lowered = depths.depth.empty() ? HeightMap{} : lowered_map(map, depths);
-        const std::optional<Level> lasting = contact.lasting_loads(source.level);
         source.gap = gaps(lowered.data ? lowered : map, contact.indenter(), source.level.separation,
                           touches, whole,
                           deflections(map, contact.indenter(),

@@ -238,10 +238,11 @@ public:
         law_.prepare(yielded);
         law_.commit(int(yielded.size()), yielded.data(), deepest.data());
     }
-    std::vector<double> residual_depths() const override {
-        std::vector<double> depths;
-        for (const auto i : indices(asperities_)) depths.push_back(law_.residual_depth(int(i)));
-        return depths;
+    Remains remains(const Level&) const override {
+        Remains all;
+        for (const auto i : indices(asperities_))
+            all.residual_depths.push_back(law_.residual_depth(int(i)));
+        return all;
     }
 
 private:

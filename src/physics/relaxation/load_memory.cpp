@@ -5,6 +5,7 @@
 namespace rsc {
 LoadMemory::LoadMemory(const Relaxation& body)
     : body_(body),
+      steps_(body.shortest()),
       creep_(body),
       passage_(creep_, 0),
       y_(creep_.retardations().size()),

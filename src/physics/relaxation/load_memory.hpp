@@ -13,7 +13,7 @@ public:
 
     void step(double dt) override { passage_ = Passage(creep_, dt); }
     double compliance() const override { return passage_.compliance; }
-    double shortest_time() const override { return body_.shortest(); }
+    const Stepper& stepper() const override { return steps_; }
     const std::vector<std::int32_t>& places() const override { return places_; }
     std::vector<double> rest() const override;
     std::vector<double> lasting() const override;  // f + sum y_k
@@ -28,6 +28,7 @@ public:
 
 private:
     Relaxation body_;
+    TimeSteps steps_;
     Creep creep_;
     Passage passage_;
     std::vector<std::int32_t> places_;

@@ -60,6 +60,16 @@ std::vector<Branch> branches_of(const Relaxation& body, double& total) {
 
 }  // namespace
 
+Level TimeSteps::follow(const Leg& leg) const {
+    const int steps = std::max(1, int(std::ceil(16 * std::min(1.0, leg.length / shortest_))));
+    Level level;
+    for (int k = 1; k <= steps; ++k) {
+        level = leg.solve(double(k) / steps, leg.length / steps, leg.length / steps);
+        if (!level.converged) break;
+    }
+    return level;
+}
+
 Creep::Creep(const Relaxation& body) {
     double total;
     const std::vector<Branch> own = branches_of(body, total);

@@ -34,7 +34,7 @@ RelaxingAsperities::RelaxingAsperities(const Asperities& asperities, const Inden
       law_(law),
       creep_(body),
       tolerance_(tolerance),
-      shortest_(body.shortest()),
+      steps_(body.shortest()),
       lowered_(asperities.size(), kUnknown) {}
 
 void RelaxingAsperities::step(double dt) {
@@ -135,7 +135,7 @@ void RelaxingAsperities::accept(const WorkingSet& candidates, const Solution& so
     level.energy_lost = law_.lost() + lost_;
 }
 
-std::optional<Level> RelaxingAsperities::lasting(const Level& level) const {
+Remains RelaxingAsperities::remains(const Level& level) const {
     Level all = level;
     const std::vector<double> widest = law_.widest();
     for (const auto i : indices(load_)) {
@@ -151,7 +151,7 @@ std::optional<Level> RelaxingAsperities::lasting(const Level& level) const {
         all.add_contact(asperity, image.x, image.y, load_[i], a, 0);
         if (!level.spots.empty()) all.spots.push_back({image.x, image.y, a, a, 0});
     }
-    return all;
+    return {.lasting_loads = std::move(all)};
 }
 
 void RelaxingAsperities::write(std::vector<double>& numbers) const {

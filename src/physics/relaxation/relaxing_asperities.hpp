@@ -17,7 +17,7 @@ public:
                        const Relaxation& body, double tolerance);
 
     void step(double dt) override;
-    double shortest_time() const override { return shortest_; }
+    const Stepper* stepper() const override { return &steps_; }
     // Ratio of the forces of the law to the true ones.
     double scale() const override { return 1 / law_.modulus(); }
     // Sum of all rests: for periodic flats the surface rises by the kernel's shift times this sum.
@@ -35,9 +35,9 @@ public:
     // and dissipated energy [force length].
     std::optional<double> stored() const override { return law_.stored() + stored_; }
 
-    // As History::lasting_loads(): on the spots of the level, and where it has no contact on
-    // circles of the largest area so far.
-    std::optional<Level> lasting(const Level& level) const override;
+    // The loads act on the spots of the level, and where it has no contact on circles of the
+    // largest area so far.
+    Remains remains(const Level& level) const override;
 
     void write(std::vector<double>& numbers) const override;
     void read(std::span<const double> numbers) override;
@@ -50,7 +50,8 @@ private:
     const Indenter& indenter_;
     RelaxingLaw& law_;
     Creep creep_;
-    double tolerance_, shortest_;
+    double tolerance_;
+    TimeSteps steps_;
     // Last accepted level: forces f and interaction loads f + sum y_k, in the order of touched();
     // energies.
     std::vector<double> force_, load_;

@@ -6,8 +6,52 @@
 namespace rsc {
 namespace {
 
-// Change of N, or of the depth, and of the area, when the steps of sliding to a level are halved.
-constexpr double kAccuracy = 2e-3;
+// Change of N, or under a force of the depth below first touch, when the steps of sliding to a level
+// are halved; of the area and the largest pressure, whose smallest change is a pixel; and a change
+// of N that no longer matters, relative to N before the level.
+constexpr double kAccuracy = 2e-3, kCoarse = 0.05, kWornOff = 1e-6;
+constexpr int kMostSteps = 64;  // to a level
+
+// A step has two implicit stages (SDIRK2: Alexander, SIAM J. Numer. Anal. 14, 1977): it is of
+// second order, exact for the volume under a force that changes linearly, never adds material, and
+// damps at once the pressures that a step before left uneven. The number of steps is doubled until
+// the values change by less than their accuracy. Where wear takes the force off, its change is
+// relative to that before the level.
+class SlidingSteps final : public Stepper {
+public:
+    PathClock clock() const override { return PathClock::distance; }
+    Level follow(const Leg& leg) const override {
+        constexpr double stage = 1 - 1 / std::numbers::sqrt2;
+        std::optional<LevelValues> last;
+        for (int n = 1;; n *= 2) {
+            if (last) leg.take_back();
+            const double length = leg.length / n;
+            Level level;
+            const auto solve = [&](double part, double lasting) {
+                level = leg.solve(part / n, stage * length, lasting * length);
+                return level.converged;
+            };
+            for (int k = 0; k < n; ++k)
+                if (!solve(k + stage, 1 - stage) || !solve(k + 1, stage)) return level;
+            if (last && (settled(leg, *last, level) || n >= kMostSteps)) return level;
+            last = level;
+        }
+    }
+
+private:
+    // Compares a level with that of half as many steps, which is stored with it.
+    static bool settled(const Leg& leg, const LevelValues& half, Level& level) {
+        const double value = leg.by_force ? level.separation : level.force,
+                     other = leg.by_force ? half.separation : half.force,
+                     whole = leg.by_force ? leg.first_touch() - value : level.force;
+        level.sliding_error = std::abs(value - other) / std::abs(whole);
+        level.with_half_the_steps = half;
+        const auto near = [](double a, double b) { return std::abs(a - b) <= kCoarse * b; };
+        return (level.sliding_error <= kAccuracy ||
+                (!leg.by_force && std::abs(value - other) <= kWornOff * leg.force)) &&
+               near(half.area, level.area) && near(half.pressure_max, level.pressure_max);
+    }
+};
 
 // rms height of the points that are worn, without their form: a quadratic surface, for two flats
 // their mean. NaN where too few points are worn to have a form.
@@ -37,8 +81,7 @@ public:
     }
     double rate() const override { return rate_; }
     double lasting_rate() const override { return lasting_rate_; }
-    PathClock clock() const override { return PathClock::distance; }
-    double accuracy() const override { return kAccuracy; }
+    const Stepper& stepper() const override { return steps_; }
 
     void measure(Level& level, const HeightMap& map, const Indenter& indenter,
                  const std::vector<double>& depths,
@@ -55,6 +98,7 @@ public:
     }
 
 private:
+    SlidingSteps steps_;
     double coefficient_, rate_ = 0, lasting_rate_ = 0;
 };
 

@@ -1,7 +1,7 @@
 // Wear of the rough body by sliding (Archard, J. Appl. Phys. 24, 1953): at each point of boundary
 // elements the depth grows by coefficient p ds. A stage of a step is implicit: with the pressures p
 // at its end, which solve the elastic problem with coefficient ds added to the deflection of a
-// point by its own pressure. Path combines two stages to a step of second order (contact/path.cpp).
+// point by its own pressure. Two stages are a step of second order.
 #pragma once
 
 #include "physics/physics.hpp"

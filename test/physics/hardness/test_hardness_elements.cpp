@@ -56,7 +56,7 @@ TEST(test_limits) {
         CHECK(std::isnan(yielding_share(*elastic, e, kInfinity)) &&
               yielding_share(*hard, h, 1e30) == 0);
     }
-    CHECK(hard->residual_profile().depth.empty());
+    CHECK(hard->remains(Level{}).residual_profile.depth.empty());
     for (const double z : {1.5, 0.7, 0.0}) {
         const Level s = soft->at_separation(z * kSigma);
         CHECK(s.plastic_contacts == s.contacts && s.contacts > 0);

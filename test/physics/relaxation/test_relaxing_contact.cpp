@@ -169,7 +169,7 @@ void test_path(const Kind& model) {
 // Levels far apart in time, under separations and under forces, are reached in steps: as by 20
 // levels on the way.
 void test_far_apart(const Kind& model) {
-    constexpr double bound = 0.011;  // that of steps_of_time()
+    constexpr double bound = 0.011;  // that of TimeSteps
     const auto elastic = make(model, {});
     const double touch = elastic->first_touch(),
                  unit = 0.4 * elastic->at_separation(touch - model.depth).force;
@@ -228,7 +228,7 @@ void test_refused(const Kind& model) {
 // under the loads of the retardations, and fade.
 void test_deflections(const Kind& model) {
     const auto soft = make(model, kBody), elastic = make(model, {});
-    CHECK(!elastic->lasting_loads(Level{}));
+    CHECK(!elastic->remains(Level{}).lasting_loads);
     const auto kernel = make_kernel(Interaction::point, substrate_of(elastic->indenter()),
                                     elastic->indenter().period);
     const double touch = elastic->first_touch(), Z0 = touch - model.depth;
@@ -237,7 +237,7 @@ void test_deflections(const Kind& model) {
         return deflection(level, *kernel, x, 0.35);
     };
     const auto as_elastic = [&](const Level& level, double share) {
-        const Level lasting = *soft->lasting_loads(level);
+        const Level lasting = *soft->remains(level).lasting_loads;
         for (const double x : {0.05, 0.45, 0.9})
             CHECK_CLOSE(at(lasting, x), share * at(e, x), 1e-6 * std::abs(at(e, 0.45)));
     };

@@ -342,10 +342,10 @@ inline void levels(CheckedFile& f, const Truth& t) {
         Vector rest;
         for (const auto i : indices(deepest))
             rest.push_back(t.hertz ? pressed_flat(t, static_cast<std::int32_t>(i), deepest[i]).rest
-                                   : t.r[0].residual_depth[i]);
+                                   : t.r[0].remains.residual_depths[i]);
         f.same("asperity_residual_depth", rest, 1e-9);
     }
-    const ResidualProfile& profile = t.r[0].residual_profile;
+    const ResidualProfile& profile = t.r[0].remains.residual_profile;
     if (yields && t.elements && t.M == 1) {
         const Grid& g = t.heights[0];
         f.same("residual_pixel_x", profile.x);

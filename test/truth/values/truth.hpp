@@ -1,9 +1,9 @@
 // What a case means, worked out from its text: the surface and its moments, the contacts of each
-// level, E*, R*, the tip. The levels are the library's (run/job.hpp).
+// level, E*, R*, the tip. The levels are the library's (problem/job.hpp).
 #pragma once
 
 #include "check.hpp"
-#include "run/job.hpp"
+#include "run/realize.hpp"
 #include "truth/elimination.hpp"
 #include "truth/values/checked_file.hpp"
 

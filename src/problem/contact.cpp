@@ -4,7 +4,7 @@
 #include "contact/equivalent.hpp"
 #include "contact/make.hpp"
 #include "physics/physics.hpp"
-#include "run/prepare.hpp"
+#include "problem/bodies.hpp"
 
 namespace rsc {
 namespace {

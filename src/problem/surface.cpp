@@ -1,4 +1,4 @@
-#include "run/prepare.hpp"
+#include "problem/bodies.hpp"
 
 #include "asperities/law.hpp"
 #include "base/error.hpp"
