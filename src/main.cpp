@@ -15,12 +15,6 @@
 #ifdef RSC_MPI
 #include "run/mpi_team.hpp"
 #endif
-#if defined(__GLIBC__)
-#include <malloc.h>
-#include <sys/mman.h>
-#include <sys/resource.h>
-#include <unistd.h>
-#endif
 
 // A threaded BLAS sums in an order that depends on the number of threads, but results must not.
 // Only OpenBLAS needs this switch.
@@ -237,32 +231,11 @@ int serve(Ranks& ranks, const std::string& command) {
 }
 #endif
 
-// A short run spends a tenth of its time on pages of memory that it has just given back, and on
-// small ones: freed memory is kept, and memory is taken from the system in huge pages where it has
-// them.
-void keep_memory() {
-#if defined(__GLIBC__)
-    for (const auto which : {RLIMIT_AS, RLIMIT_DATA})
-        if (rlimit limit{}; getrlimit(which, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY)
-            return;                  // memory is short
-    constexpr int piece = 32 << 20;  // the largest threshold that is accepted
-    mallopt(M_MMAP_THRESHOLD, piece);
-    mallopt(M_TRIM_THRESHOLD, 4 * piece);
-    mallopt(M_TOP_PAD, piece);
-    auto* const heap = static_cast<char*>(sbrk(0));
-    void* volatile first = std::malloc(piece - 4096);
-    std::free(first);
-    const auto into_page = reinterpret_cast<std::uintptr_t>(heap) % 4096;
-    madvise(heap - into_page, at(static_cast<char*>(sbrk(0)) - heap) + into_page, MADV_HUGEPAGE);
-#endif
-}
-
 }  // namespace
 }  // namespace rsc
 
 int main(int argc, char** argv) {
     using namespace rsc;
-    keep_memory();
     if (openblas_set_num_threads) openblas_set_num_threads(1);
     std::ios::sync_with_stdio(false);
 #ifdef RSC_MPI

@@ -41,8 +41,8 @@ private:
         put(char(value.has_value()));
         if (value) put(*value);
     }
-    template <class T>
-    void put(const std::vector<T>& values) {
+    template <class T, class Memory>
+    void put(const std::vector<T, Memory>& values) {
         static_assert(std::is_trivially_copyable_v<T>);
         put(std::uint64_t(values.size()));
         bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
@@ -83,8 +83,8 @@ private:
         value.reset();
         if (some != 0) get(value.emplace(T()));
     }
-    template <class T>
-    void get(std::vector<T>& values) {
+    template <class T, class Memory>
+    void get(std::vector<T, Memory>& values) {
         static_assert(std::is_trivially_copyable_v<T>);
         std::uint64_t size = 0;
         get(size);

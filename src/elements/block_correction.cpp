@@ -40,14 +40,15 @@ std::vector<float> BlockCorrection::sums(const PixelSet& set, const float* r, in
     parallel_for(my_, 1, threads, [&](int J) {
         for (int j = J * side_; j < (J + 1) * side_; ++j)
             for (std::size_t k = set.rows[at(j)]; k < set.rows[at(j) + 1]; ++k)
-                sums[at(J) * at(mx_) + at(set.column[k] / side_)] += m_[k] * (r ? r[k] : 1.0f);
+                sums[at(J) * at(mx_) + at(set.column[k] / side_)] += m(k) * r[k];
     });
     return sums;
 }
 
-void BlockCorrection::set(const PixelSet& set, std::vector<float> m, int threads) {
-    m_ = std::move(m);
-    root_ = sums(set, nullptr, threads);
+void BlockCorrection::set(const PixelSet& set, std::span<const float> m,
+                          std::span<const float> free, int threads) {
+    m_ = m;
+    root_ = sums(set, free.data(), threads);
     for (float& d : root_) d = std::sqrt(std::max(d, 0.0f));
 }
 
@@ -112,7 +113,7 @@ void BlockCorrection::subtract(const PixelSet& set, const float* r, float* y, in
     parallel_for(my_, 1, threads, [&](int J) {
         const float* const field = image.data() + at(J) * at(mx_);
         for (std::size_t k = set.rows[at(J * side_)]; k < set.rows[at((J + 1) * side_)]; ++k)
-            y[k] -= m_[k] * field[set.column[k] / side_];
+            y[k] -= m(k) * field[set.column[k] / side_];
     });
 }
 

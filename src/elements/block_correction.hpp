@@ -21,9 +21,12 @@ public:
     BlockCorrection(int nx, int ny, double aspect, const PixelStencil& inverse, const Share& share);
     bool exists() const { return far_ != nullptr; }
 
-    // Sets m over the pixels of the set.
-    void set(const PixelSet& set, std::vector<float> m, int threads);
-    // Subtracts M P (F^-1 + P' M P)^-1 P' M r from y over the same set.
+    // Sets m over the pixels of the set, which must outlive following calls; negative values count
+    // as 0. `free` is 1 where a pixel is free and 0 elsewhere, where r is 0, too.
+    void set(const PixelSet& set, std::span<const float> m, std::span<const float> free,
+             int threads);
+    // Subtracts M P (F^-1 + P' M P)^-1 P' M r from y over the free pixels, and something from the
+    // others.
     void subtract(const PixelSet& set, const float* r, float* y, int threads);
 
 private:
@@ -33,7 +36,8 @@ private:
 
     int side_ = 0, mx_ = 0, my_ = 0;  // pixels along a side of a block; blocks
     std::unique_ptr<PeriodicPixels<float>> far_;
-    std::vector<float> m_;
+    std::span<const float> m_;
+    float m(std::size_t k) const { return std::max(m_[k], 0.0f); }
     std::vector<float> root_;  // D^1/2, roots of the sums of m over the blocks
 };
 

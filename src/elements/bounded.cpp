@@ -14,26 +14,29 @@ constexpr double kSmall = 5e-5;
 
 }  // namespace
 
-template <class F>
-double BoundedSolver::sum(F&& of) {
-    return sum_with<double>([&](double& part, std::size_t k) { part += of(k); });
-}
-
-template <class F>
-double BoundedSolver::sum_free(F&& of) {
-    if (manner_.repeats) return sum(of);
+template <class Real>
+template <class Sum, class F>
+Sum BoundedSolver<Real>::total_free(F&& add) {
+    if (manner_.repeats) return sum_with<Sum>(add);
     const std::size_t n = free_list_.size();
     const std::size_t pieces = (n + kPixels - 1) / kPixels;
-    return sum_in_order(pieces, 1, threads_for(n), [&](std::size_t piece) {
-        double part = 0;
+    return sum_in_order<Sum>(pieces, 1, threads_for(n), [&](std::size_t piece) {
+        Sum part{};
         for (std::size_t k = piece * kPixels; k < std::min(n, (piece + 1) * kPixels); ++k)
-            part += of(at(free_list_[k]));
+            add(part, at(free_list_[k]));
         return part;
     });
 }
 
+template <class Real>
 template <class F>
-void BoundedSolver::set_free(F&& of) {
+double BoundedSolver<Real>::sum_free(F&& of) {
+    return total_free<double>([&](double& part, std::size_t k) { part += of(k); });
+}
+
+template <class Real>
+template <class F>
+void BoundedSolver<Real>::set_free(F&& of) {
     free_.resize(p_.size());
     const auto set = [&](std::size_t k) { return free_[k] = of(k); };
     if (manner_.repeats)
@@ -43,7 +46,8 @@ void BoundedSolver::set_free(F&& of) {
     freed();
 }
 
-void BoundedSolver::evaluate(bool exact) {
+template <class Real>
+void BoundedSolver<Real>::evaluate(bool exact) {
     stopping_point();
     multiply(p_, w_, exact);
     add_diagonal(p_, w_);
@@ -53,7 +57,8 @@ void BoundedSolver::evaluate(bool exact) {
 }
 
 // If the sum of p is given, sets Z0 such that the mean of w over the pixels under pressure is 0.
-void BoundedSolver::find_Z0() {
+template <class Real>
+void BoundedSolver<Real>::find_Z0() {
     if (!given_sum_) return;
     struct Sums {
         std::size_t touching = 0;
@@ -71,7 +76,8 @@ void BoundedSolver::find_Z0() {
     each([&](std::size_t k) { w_[k] += shift; });
 }
 
-double BoundedSolver::error() {
+template <class Real>
+double BoundedSolver<Real>::error() {
     struct Sums {
         std::size_t touching = 0;
         double weight = 0, inside = 0, overlap = 0;
@@ -95,7 +101,8 @@ double BoundedSolver::error() {
     return std::sqrt(bad / static_cast<double>(sums.touching)) / (sums.overlap / sums.weight);
 }
 
-double BoundedSolver::certificate() {
+template <class Real>
+double BoundedSolver<Real>::certificate() {
     struct Sums {
         double largest = 0, weight = 0, overlap = 0, product = 0;
         Sums operator+(const Sums& o) const {
@@ -120,52 +127,60 @@ double BoundedSolver::certificate() {
     return std::max({farthest * sums.weight / overlap, sums.product / overlap, load});
 }
 
-void BoundedSolver::find_free() {
+template <class Real>
+void BoundedSolver<Real>::find_free() {
     set_free([&](std::size_t k) {
         return !((p_[k] <= 0 && w_[k] >= 0) || (p_[k] >= highest_ && w_[k] <= 0));
     });
 }
 
-void BoundedSolver::precondition_ones(std::vector<double>& y) {
-    std::vector<double> ones(free_.size());
-    y.resize(free_.size());
-    each([&](std::size_t k) {
-        ones[k] = free_[k];
-        y[k] = 0;
-    });
-    precondition(ones, y);
+template <class Real>
+void BoundedSolver<Real>::precondition_ones(Array<Real>& y) {
+    residual_.assign(free_.begin(), free_.end());
+    y.assign(free_.size(), Real(0));
+    precondition(residual_, y);
 }
 
 // Leaves K one_ in image_ where it computes punch_.
-void BoundedSolver::prepare_constant(bool plain) {
+template <class Real>
+void BoundedSolver<Real>::prepare_constant(bool plain) {
     if (!manner_.repeats && !given_sum_) return;
     if (plain)
         one_.assign(free_.begin(), free_.end());
     else
         precondition_ones(one_);
-    whole_ = sum_free([&](std::size_t k) { return one_[k]; });
+    whole_ = sum_free([&](std::size_t k) { return double(one_[k]); });
     punch_ = 0;
     if (given_sum_ || plain) return;
     multiply_roughly(one_, image_);
     add_diagonal(one_, image_);
-    const double energy =
-        sum_free([&](std::size_t k) { return free_[k] ? one_[k] * image_[k] : 0.0; });
+    const double energy = sum_free(
+        [&](std::size_t k) { return free_[k] ? double(one_[k]) * double(image_[k]) : 0.0; });
     if (energy > 0) punch_ = 1 / energy;
+}
+
+// Sums of y, of the residual times y and, if `constant`, times one_.
+template <class Real>
+auto BoundedSolver<Real>::sums_of_step(bool constant) -> Products {
+    return total_free<Products>([&](Products& part, std::size_t k) {
+        const double r = residual_[k], y = y_[k];
+        part.y += y;
+        part.residual_y += r * y;
+        if (constant) part.residual_one += r * double(one_[k]);
+    });
 }
 
 // Conjugate gradients on the free pixels. If the sum of p is given, it is kept constant, and w is
 // minimised up to a constant.
-double BoundedSolver::descend(int most_steps, double reduction) {
+template <class Real>
+double BoundedSolver<Real>::descend(int most_steps, double reduction) {
     const std::size_t n = p_.size();
-    const auto product = [&](const std::vector<double>& a, const std::vector<double>& b) {
-        return sum_free([&](std::size_t k) { return a[k] * b[k]; });
-    };
     // A single step follows the gradient itself, which remains a descent direction after projection
     // on the bounds.
     const bool plain = most_steps == 1, constant = manner_.repeats || given_sum_;
     for (auto* v : {&residual_, &y_, &direction_}) v->resize(n);
     const auto set_residual = [&](std::size_t k) {
-        residual_[k] = free_[k] * (0 - w_[k]);
+        residual_[k] = free_[k] ? static_cast<Real>(0 - w_[k]) : Real(0);
         y_[k] = 0;
     };
     each(set_residual);
@@ -175,28 +190,29 @@ double BoundedSolver::descend(int most_steps, double reduction) {
             y_ = residual_;
         else
             precondition(residual_, y_);
-        if (constant) {
-            const double c = given_sum_ ? -sum_free([&](std::size_t k) { return y_[k]; }) / whole_
-                                        : punch_ * product(one_, residual_);
-            each([&](std::size_t k) { y_[k] += c * one_[k]; });
-        }
-        const double ry = product(residual_, y_);
+        const Products products = sums_of_step(constant);
+        const double c = !constant    ? 0
+                         : given_sum_ ? -products.y / whole_
+                                      : punch_ * products.residual_one,
+                     ry = products.residual_y + c * products.residual_one;
         if (step == 0) first = ry;
         if (!(ry > reduction * reduction * first)) break;
-        const double beta = step > 0 ? ry / last : 0.0;
+        const auto beta = static_cast<Real>(step > 0 ? ry / last : 0.0);
         last = ry;
         each([&](std::size_t k) {
-            direction_[k] = y_[k] + (step > 0 ? beta * direction_[k] : 0.0);
+            const Real y = constant ? y_[k] + static_cast<Real>(c) * one_[k] : y_[k];
+            direction_[k] = step > 0 ? y + beta * direction_[k] : y;
         });
         stopping_point();
         multiply_roughly(direction_, image_);
         add_diagonal(direction_, image_);
-        const double curvature = product(direction_, image_);
+        const double curvature =
+            sum_free([&](std::size_t k) { return double(direction_[k]) * double(image_[k]); });
         if (!(curvature > 0)) break;
         const double alpha = ry / curvature;
         each([&](std::size_t k) {
-            p_[k] += alpha * direction_[k];
-            w_[k] += alpha * image_[k];
+            p_[k] += alpha * double(direction_[k]);
+            w_[k] += alpha * double(image_[k]);
             set_residual(k);
         });
         decrease += alpha * ry;
@@ -204,12 +220,14 @@ double BoundedSolver::descend(int most_steps, double reduction) {
     return decrease;
 }
 
-void BoundedSolver::clip() {
+template <class Real>
+void BoundedSolver<Real>::clip() {
     each([&](std::size_t k) { p_[k] = std::clamp(p_[k], 0.0, highest_); });
 }
 
 // Clips pressures at their bounds, and restores their sum by adding pressure as a lower flat would.
-void BoundedSolver::bound() {
+template <class Real>
+void BoundedSolver<Real>::bound() {
     clip();
     if (!given_sum_) return;
     constexpr int most = 50;
@@ -220,12 +238,12 @@ void BoundedSolver::bound() {
         };
         const Sums sums = sum_with<Sums>([&](Sums& part, std::size_t k) {
             part.all += p_[k];
-            part.room += p_[k] > 0 ? one_[k] : 0.0;
+            part.room += p_[k] > 0 ? double(one_[k]) : 0.0;
         });
         const double missing = *given_sum_ - sums.all;
         if (std::abs(missing) <= 1e-14 * *given_sum_ || !(sums.room > 0)) break;
         each([&](std::size_t k) {
-            if (p_[k] > 0) p_[k] = std::max(p_[k] + missing / sums.room * one_[k], 0.0);
+            if (p_[k] > 0) p_[k] = std::max(p_[k] + missing / sums.room * double(one_[k]), 0.0);
         });
     }
 }
@@ -235,22 +253,24 @@ void BoundedSolver::bound() {
 // whose inverse has no positive element beside the diagonal, nearly the case of K, pixels released
 // in this way need not return (R. Chandrasekaran, Opsearch 7 (1970) 263). Where additions and
 // releases alternate in single steps, sets of many pixels may repeat without end.
-void BoundedSolver::release(int most_steps) {
-    direction_ = p_;
+template <class Real>
+void BoundedSolver<Real>::release(int most_steps) {
+    each([&](std::size_t k) { direction_[k] = static_cast<Real>(p_[k]); });
     bound();
-    each([&](std::size_t k) { direction_[k] = p_[k] - direction_[k]; });
+    each([&](std::size_t k) { direction_[k] = static_cast<Real>(p_[k] - double(direction_[k])); });
     multiply_roughly(direction_, image_);
     add_diagonal(direction_, image_);
-    each([&](std::size_t k) { w_[k] += image_[k]; });
+    each([&](std::size_t k) { w_[k] += double(image_[k]); });
     find_Z0();
-    const std::vector<char> before = free_;
+    const Array<char> before = free_;
     set_free([&](std::size_t k) { return before[k] && p_[k] > 0 && p_[k] < highest_; });
     prepare_constant(most_steps == 1);
     descend(most_steps, manner_.reduction);
 }
 
 // Whether many of the free pixels are beyond their bounds.
-bool BoundedSolver::many_beyond() {
+template <class Real>
+bool BoundedSolver<Real>::many_beyond() {
     struct Count {
         std::size_t beyond = 0, free = 0;
         Count operator+(const Count& o) const { return {beyond + o.beyond, free + o.free}; }
@@ -265,7 +285,8 @@ bool BoundedSolver::many_beyond() {
 
 // Returns true if the last round lowered the energy; otherwise restores the best pressures along
 // the step.
-bool BoundedSolver::fell() {
+template <class Real>
+bool BoundedSolver<Real>::fell() {
     struct Sums {
         double slope = 0, curvature = 0;
         Sums operator+(const Sums& o) const { return {slope + o.slope, curvature + o.curvature}; }
@@ -281,10 +302,12 @@ bool BoundedSolver::fell() {
     return false;
 }
 
-ElementsOutcome BoundedSolver::iterate(double tolerance, int most_rounds, bool exactly) {
+template <class Real>
+ElementsOutcome BoundedSolver<Real>::iterate(double tolerance, int most_rounds, bool exactly) {
     ElementsOutcome outcome;
     if (given_sum_) {  // the start may have another sum
-        one_ = p_;
+        one_.resize(p_.size());
+        each([&](std::size_t k) { one_[k] = static_cast<Real>(p_[k]); });
         bound();
     }
     before_p_.clear();
@@ -340,10 +363,11 @@ ElementsOutcome BoundedSolver::iterate(double tolerance, int most_rounds, bool e
     return outcome;
 }
 
-double BoundedSolver::stiffness(bool back, double tolerance, int most_rounds, int most_steps,
-                                double reduction) {
+template <class Real>
+double BoundedSolver<Real>::stiffness(bool back, double tolerance, int most_rounds, int most_steps,
+                                      double reduction) {
     // Solves K q = 1 by the same iteration; the solution of the level is restored afterwards.
-    const std::vector<double> p = p_, w = w_;
+    const Array<double> p = p_, w = w_;
     const std::optional<double> given_sum = std::exchange(given_sum_, std::nullopt);
     set_free([&](std::size_t k) { return p_[k] > 0 && (back || p_[k] < highest_); });
     const double count = sum_free([&](std::size_t k) { return free_[k] ? 1.0 : 0.0; });
@@ -361,8 +385,8 @@ double BoundedSolver::stiffness(bool back, double tolerance, int most_rounds, in
     prepare_constant(false);
     if (const double c = whole_ * punch_; manner_.repeats && c > 0)  // the first step is known
         each([&](std::size_t k) {
-            p_[k] = c * one_[k];
-            w_[k] = c * image_[k] - 1;
+            p_[k] = c * double(one_[k]);
+            w_[k] = c * double(image_[k]) - 1;
         });
     double residual = 0, answer = 0;
     for (int round = 0; round < most_rounds && count > 0; ++round) {
@@ -393,13 +417,15 @@ double BoundedSolver::stiffness(bool back, double tolerance, int most_rounds, in
     return answer;
 }
 
-double BoundedSolver::energy() const {
+template <class Real>
+double BoundedSolver<Real>::energy() const {
     return 0.5 * sum_with<double>([&](double& part, std::size_t k) {
                part += p_[k] * (z_[k] - Z0_ + (p_[k] < highest_ ? -w_[k] : w_[k]));
            });
 }
 
-std::vector<std::pair<int, double>> BoundedSolver::press_out() {
+template <class Real>
+std::vector<std::pair<int, double>> BoundedSolver<Real>::press_out() {
     std::vector<std::pair<int, double>> depths;
     for (std::size_t k = 0; k < p_.size(); ++k) {
         if (!(p_[k] >= highest_ && w_[k] < 0)) continue;
@@ -410,9 +436,13 @@ std::vector<std::pair<int, double>> BoundedSolver::press_out() {
     return depths;
 }
 
-void BoundedSolver::settle() {
+template <class Real>
+void BoundedSolver<Real>::settle() {
     each([&](std::size_t k) { z_[k] -= diagonal_ * p_[k]; });
     diagonal_ = 0;
 }
+
+template class BoundedSolver<float>;
+template class BoundedSolver<double>;
 
 }  // namespace rsc

@@ -14,6 +14,7 @@
 // the set of pixels.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/parallel.hpp"
 
 namespace rsc {
@@ -27,6 +28,8 @@ struct ElementsOutcome {
     double certificate = std::numeric_limits<double>::quiet_NaN();
 };
 
+// Real is the type of what is used inside a round only.
+template <class Real>
 class BoundedSolver {
 public:
     virtual ~BoundedSolver() = default;
@@ -58,17 +61,15 @@ protected:
     BoundedSolver(double highest, Manner manner) : highest_(highest), manner_(manner) {}
 
     // Kx = K x over the set: approximate for iterations, or exact for the final error.
-    virtual void multiply(const std::vector<double>& x, std::vector<double>& Kx, bool exact) = 0;
+    virtual void multiply(const Array<double>& x, Array<double>& Kx, bool exact) = 0;
     // The same to some per cent, for steps inside a round if every round starts from a better
     // product.
-    virtual void multiply_roughly(const std::vector<double>& x, std::vector<double>& Kx) {
-        multiply(x, Kx, false);
-    }
+    virtual void multiply_roughly(const Array<Real>& x, Array<Real>& Kx) = 0;
     // Preconditioner: y approximates K^-1 r over the free pixels and is 0 elsewhere, as it is
     // everywhere on entry.
-    virtual void precondition(const std::vector<double>& r, std::vector<double>& y) = 0;
+    virtual void precondition(const Array<Real>& r, Array<Real>& y) = 0;
     // The same for r = 1.
-    virtual void precondition_ones(std::vector<double>& y);
+    virtual void precondition_ones(Array<Real>& y);
     // Sum of the squared penetrations of pixels outside the set, from the last multiply() with p.
     virtual double outside() { return 0; }
     // Clips pressures at their bounds.
@@ -125,8 +126,8 @@ protected:
     }
     template <class Sum, class F>
     Sum sum_with(F&& add) const;  // add(part, k) adds to a part of the sum
-    template <class F>
-    double sum(F&& of);
+    template <class Sum, class F>
+    Sum total_free(F&& add);
     template <class F>
     double sum_free(F&& of);
     template <class F>
@@ -140,24 +141,35 @@ protected:
     // Vectors over the set, and the beginnings of its rows, or of parts of it; a row is summed by
     // one thread.
     std::vector<std::size_t> rows_ = {0, 0};
-    std::vector<double> z_, p_, w_;
-    std::vector<char> free_;      // not held at a bound
-    std::vector<int> free_list_;  // their positions; not if `repeats`
+    Array<double> z_, p_, w_;
+    Array<char> free_;                   // not held at a bound
+    std::vector<int> free_list_;         // their positions; not if `repeats`
+    Array<Real> residual_;               // inside a descent; free for use outside
+    Array<double> before_p_, before_w_;  // before a round; of no meaning in renew()
 
 private:
+    struct Products {
+        double y = 0, residual_y = 0, residual_one = 0;
+        Products operator+(const Products& o) const {
+            return {y + o.y, residual_y + o.residual_y, residual_one + o.residual_one};
+        }
+    };
+    Products sums_of_step(bool constant);
     void find_free();
-    void add_diagonal(const std::vector<double>& x, std::vector<double>& Kx) {
-        if (diagonal_ > 0) each([&](std::size_t k) { Kx[k] += diagonal_ * x[k]; });
+    template <class T>
+    void add_diagonal(const Array<T>& x, Array<T>& Kx) {
+        if (diagonal_ > 0) each([&](std::size_t k) { Kx[k] += static_cast<T>(diagonal_) * x[k]; });
     }
-    std::vector<double> residual_, y_, direction_, image_, before_p_, before_w_;
+    Array<Real> y_, direction_, image_;
     // Correction by a constant pressure on the free pixels, which is most effective near full
     // contact: M 1 (M: preconditioner), its sum, and 1/((M 1)'K (M 1)).
-    std::vector<double> one_;
+    Array<Real> one_;
     double whole_ = 0, punch_ = 0;
 };
 
+template <class Real>
 template <class Sum, class F>
-Sum BoundedSolver::sum_with(F&& add) const {
+Sum BoundedSolver<Real>::sum_with(F&& add) const {
     const int rows = static_cast<int>(rows_.size()) - 1;
     return sum_in_order<Sum>(rows, kRows, threads_for(p_.size()), [&](int j) {
         Sum part{};
@@ -165,5 +177,8 @@ Sum BoundedSolver::sum_with(F&& add) const {
         return part;
     });
 }
+
+extern template class BoundedSolver<float>;
+extern template class BoundedSolver<double>;
 
 }  // namespace rsc

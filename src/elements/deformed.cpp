@@ -1,5 +1,6 @@
 #include "elements/deformed.hpp"
 
+#include "base/array.hpp"
 #include "base/parallel.hpp"
 #include "elements/periodic_pixels.hpp"
 #include "elements/pixel_products.hpp"
@@ -13,7 +14,7 @@ constexpr int kRows = 16;  // that a thread takes at a time
 }  // namespace
 
 Pressures pressures_of(const LevelPixels& pixels) {
-    Pressures all(pixels.index.size());
+    Pressures all = zeros_on_huge_pages<Pressures::value_type>(pixels.index.size());
     parallel_for(all.size(), 4096, 0, [&](std::size_t k) {
         all[k] = {pixels.index[k], {pixels.pressure[k], true}};
     });
@@ -27,7 +28,7 @@ Pressures pressures_of(const LevelPixels& pixels) {
 std::vector<double> deflections(const HeightMap& map, const Indenter& indenter,
                                 const Pressures& pressures, const PointWindow& window) {
     const PointRange &columns = window.columns, &rows = window.rows;
-    std::vector<double> u(window.points(), 0.0);
+    std::vector<double> u = zeros_on_huge_pages<double>(window.points());
     if (pressures.empty()) return u;
     const Substrate body = substrate_of(indenter);
     if (indenter.period.finite()) {

@@ -170,7 +170,7 @@ void ElementsSolver::spread(std::vector<double>& p) {
 
 // An exact product is a full one, or the last full one plus a cheaper product with the change
 // since, whose error is relative to the change.
-void ElementsSolver::multiply(const std::vector<double>& x, std::vector<double>& Kx, bool exact) {
+void ElementsSolver::multiply(const Array<double>& x, Array<double>& Kx, bool exact) {
     const std::size_t n = x.size();
     Kx.resize(n);
     if (!exact) return products_.apply(x.data(), Kx.data(), Accuracy::inner);
@@ -199,7 +199,7 @@ void ElementsSolver::multiply(const std::vector<double>& x, std::vector<double>&
     full_w_ = Kx;
 }
 
-void ElementsSolver::multiply_roughly(const std::vector<double>& x, std::vector<double>& Kx) {
+void ElementsSolver::multiply_roughly(const Array<double>& x, Array<double>& Kx) {
     Kx.resize(x.size());
     products_.apply(x.data(), Kx.data(), Accuracy::inner, free_.data());
 }
@@ -234,7 +234,7 @@ void ElementsSolver::freed() {
     if (std::exchange(inverse_of_, diagonal_) != diagonal_) inverse_ = products_.inverse(diagonal_);
 }
 
-void ElementsSolver::precondition(const std::vector<double>& r, std::vector<double>& y) {
+void ElementsSolver::precondition(const Array<double>& r, Array<double>& y) {
     struct Largest {
         double value = 0;
         Largest operator+(const Largest& o) const { return {std::max(value, o.value)}; }
@@ -325,13 +325,13 @@ std::vector<std::pair<Pixel, double>> ElementsSolver::press_out() {
 }
 
 void ElementsSolver::keep(ArchiveWriter& to) const {
-    const BoundedSolver& solved = *this;
+    const BoundedSolver<double>& solved = *this;
     archive(to, solved);
     to(set_);
 }
 
 void ElementsSolver::recall(ArchiveReader& from, int columns, int rows) {
-    BoundedSolver& solved = *this;
+    BoundedSolver<double>& solved = *this;
     archive(from, solved);
     from(set_);
     if (!fits(set_.size()) || !within(set_, columns, rows))

@@ -12,7 +12,7 @@ namespace rsc {
 // Whether all pixels lie on a map of this size.
 bool within(const std::vector<Pixel>& pixels, int columns, int rows);
 
-class ElementsSolver : private BoundedSolver {
+class ElementsSolver : private BoundedSolver<double> {
 public:
     // Pressures are limited to `highest` (the hardness; Infinity: no limit); where p = highest, w
     // may be negative.
@@ -53,9 +53,9 @@ private:
     std::size_t guess(const std::vector<Pixel>& pixels, const std::vector<double>& g0,
                       const std::vector<double>& over, double& least, std::vector<double>& p);
     void draw(const std::vector<double>& p);
-    void multiply(const std::vector<double>& x, std::vector<double>& Kx, bool exact) override;
-    void multiply_roughly(const std::vector<double>& x, std::vector<double>& Kx) override;
-    void precondition(const std::vector<double>& r, std::vector<double>& y) override;
+    void multiply(const Array<double>& x, Array<double>& Kx, bool exact) override;
+    void multiply_roughly(const Array<double>& x, Array<double>& Kx) override;
+    void precondition(const Array<double>& r, Array<double>& y) override;
     void enclose();
     void freed() override;
     bool judge_exactly(bool exact, double residual, int rounds) override;
@@ -76,7 +76,7 @@ private:
     std::vector<char> in_, outside_;
     std::vector<int> position_;
     std::vector<Pixel> set_;
-    std::vector<double> full_p_, full_w_,
+    Array<double> full_p_, full_w_,
         step_;                       // last full product with this set, and the step since
     std::vector<double> elsewhere_;  // deflections of all pixels
     // Preconditioner: products.inverse() for a diagonal, and the set on a plane that encloses it.
@@ -85,7 +85,7 @@ private:
     SparsePlane plane_{0, 0};
     std::vector<std::size_t> plane_rows_;
     std::vector<std::int32_t> column_;
-    std::vector<float> from_, to_;
+    Array<float> from_, to_;
 };
 
 }  // namespace rsc

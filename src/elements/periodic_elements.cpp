@@ -47,7 +47,8 @@ PeriodicElements::PeriodicElements(const Relief& relief, const Substrate& substr
       substrate_(substrate),
       hardness_(highest),
       aspect_(relief.ny > 1 ? relief.dy / relief.dx : kEndless),
-      inner_(relief.nx, relief.ny, 1, aspect_, share_of_modes(substrate_, relief_.dx)),
+      inner_(relief.nx, relief.ny, 1, aspect_, share_of_modes(substrate_, relief_.dx),
+             &transformed_),
       plane_(relief.nx, relief.ny) {
     mean_ = zero_ = mean_height();
     std::vector<double> farthest(at(relief_.ny), 0.0);
@@ -78,7 +79,8 @@ PeriodicElements::PeriodicElements(const PeriodicElements& finer,
       hardness_(finer.hardness_),
       unit_(2 * finer.unit_),
       aspect_(finer.aspect_),
-      inner_(relief_.nx, relief_.ny, 1, aspect_, share_of_modes(substrate_, relief_.dx)),
+      inner_(relief_.nx, relief_.ny, 1, aspect_, share_of_modes(substrate_, relief_.dx),
+             &transformed_),
       plane_(relief_.nx, relief_.ny) {
     diagonal_ = finer.diagonal_;
     prepare();
@@ -109,13 +111,14 @@ int PeriodicElements::threads() const { return relief_.nx >= kThreads / relief_.
 PeriodicPixels<double>& PeriodicElements::fine() {
     if (!fine_)
         fine_ = std::make_unique<PeriodicPixels<double>>(relief_.nx, relief_.ny, 1, aspect_,
-                                                         share_of_modes(substrate_, relief_.dx));
+                                                         share_of_modes(substrate_, relief_.dx),
+                                                         &transformed_);
     return *fine_;
 }
 
 std::vector<double> PeriodicElements::coarse_heights() const {
     const int nx = relief_.nx / 2, ny = (relief_.ny + 1) / 2;
-    std::vector<double> heights(at(nx) * at(ny));
+    std::vector<double> heights = zeros_on_huge_pages<double>(at(nx) * at(ny));
     parallel_for(ny, kRows, threads(), [&](int j) {
         const int low = 2 * j, high = std::min(low + 1, relief_.ny - 1);
         for (int i = 0; i < nx; ++i)
@@ -198,9 +201,8 @@ std::vector<Pixel> PeriodicElements::set() const {
     return pixels;
 }
 
-template <class Real>
-void PeriodicElements::multiply_by(PeriodicPixels<Real>& pixels, const std::vector<double>& x,
-                                   std::vector<double>& Kx) {
+template <class Real, class T>
+void PeriodicElements::multiply_by(PeriodicPixels<Real>& pixels, const Array<T>& x, Array<T>& Kx) {
     ++products_;
     Kx.resize(x.size());
     pixels.apply(
@@ -211,11 +213,11 @@ void PeriodicElements::multiply_by(PeriodicPixels<Real>& pixels, const std::vect
         },
         [&](int j, const Real* row) {
             for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k)
-                Kx[k] = unit_ * static_cast<double>(row[column_[k]]);
+                Kx[k] = static_cast<T>(unit_ * static_cast<double>(row[column_[k]]));
         });
 }
 
-void PeriodicElements::multiply(const std::vector<double>& x, std::vector<double>& Kx, bool exact) {
+void PeriodicElements::multiply(const Array<double>& x, Array<double>& Kx, bool exact) {
     exact_ = exact;
     if (exact)
         multiply_by(fine(), x, Kx);
@@ -227,7 +229,7 @@ void PeriodicElements::multiply(const std::vector<double>& x, std::vector<double
 double PeriodicElements::outside() {
     outside_.resize(at(relief_.ny));
     return sum_in_order(relief_.ny, kRows, threads(), [&](int j) {
-        const float* const inner = inner_.row(j);
+        const float* const inner = exact_ ? nullptr : inner_.row(j);
         const double* const exact = exact_ ? fine_->row(j) : nullptr;
         std::vector<Penetration>& found = outside_[at(j)];
         found.clear();
@@ -283,16 +285,14 @@ void PeriodicElements::renew() {
         for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k) rows[at(j) + 1] += belongs(k);
     });
     for (int j = 0; j < relief_.ny; ++j) rows[at(j) + 1] += rows[at(j)];
-    const std::size_t n = rows.back();
-    std::vector<std::int32_t> column(n);
-    std::vector<double> p(n), w(n), z(n);
+    next_column_.resize(rows.back());
+    for (auto* v : {&before_p_, &before_w_}) v->resize(rows.back());
     parallel_for(relief_.ny, kRows, threads(), [&](int j) {
         std::size_t next = rows[at(j)];
-        const auto add = [&](std::int32_t i, double pressure, double gap) {
-            column[next] = i;
-            p[next] = pressure;
-            w[next] = gap;
-            z[next++] = height(j, i);
+        const auto add = [&](std::int32_t i, double p, double w) {
+            next_column_[next] = i;
+            before_p_[next] = p;
+            before_w_[next++] = w;
         };
         auto other = outside_[at(j)].begin();
         const auto end = outside_[at(j)].end();
@@ -304,59 +304,55 @@ void PeriodicElements::renew() {
         for (; other != end; ++other) add(other->column, 0, other->w);
     });
     rows_ = std::move(rows);
-    column_ = std::move(column);
-    p_ = std::move(p);
-    w_ = std::move(w);
-    z_ = std::move(z);
+    column_.swap(next_column_);
+    p_.swap(before_p_);
+    w_.swap(before_w_);
+    z_.resize(p_.size());
+    parallel_for(relief_.ny, kRows, threads(), [&](int j) {
+        for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k) z_[k] = height(j, column_[k]);
+    });
 }
 
 // Products inside a round need not be accurate, because the next round starts from an accurate one.
-void PeriodicElements::multiply_roughly(const std::vector<double>& x, std::vector<double>& Kx) {
-    if (!split_ || x.size() > at(relief_.nx) * at(relief_.ny) / kFew) return multiply(x, Kx, false);
+void PeriodicElements::multiply_roughly(const Array<float>& x, Array<float>& Kx) {
+    if (!split_ || x.size() > at(relief_.nx) * at(relief_.ny) / kFew)
+        return multiply_by(inner_, x, Kx);
     split_->multiply(plane_, {rows_, column_}, x, Kx, threads());
-    each([&](std::size_t k) { Kx[k] *= unit_; });
+    each([&](std::size_t k) { Kx[k] *= static_cast<float>(unit_); });
 }
 
 // y = K^-1, truncated to some pixels and with a correction for the farther ones, times r over the
 // free pixels.
-void PeriodicElements::precondition(const std::vector<double>& r, std::vector<double>& y) {
-    from_.resize(r.size());
-    to_.resize(r.size());
-    each([&](std::size_t k) { from_[k] = free_[k] ? static_cast<float>(r[k]) : 0.0f; });
-    plane_.convolve(inverse_, {rows_, column_}, from_.data(), to_.data(), threads());
-    correct(y);
+void PeriodicElements::precondition(const Array<float>& r, Array<float>& y) {
+    plane_.convolve(inverse_, {rows_, column_}, r.data(), y.data(), threads());
+    correct(r, y);
 }
 
-void PeriodicElements::precondition_ones(std::vector<double>& y) {
-    from_.assign(free_.begin(), free_.end());
-    to_ = ones_;
-    correct(y);
+void PeriodicElements::precondition_ones(Array<float>& y) {
+    residual_.assign(free_.begin(), free_.end());
+    y = ones_;
+    correct(residual_, y);
 }
 
-// Corrects to_, the truncated K^-1 times from_, and copies it to y.
-void PeriodicElements::correct(std::vector<double>& y) {
-    if (far_is_set_) far_->subtract({rows_, column_}, from_.data(), to_.data(), threads());
-    y.resize(to_.size());
+// Corrects y, the truncated K^-1 times r.
+void PeriodicElements::correct(const Array<float>& r, Array<float>& y) {
+    if (far_is_set_) far_->subtract({rows_, column_}, r.data(), y.data(), threads());
     const double product = sum_with<double>([&](double& part, std::size_t k) {
-        y[k] = free_[k] ? static_cast<double>(to_[k]) : 0.0;
-        part += static_cast<double>(from_[k]) * y[k];
+        if (!free_[k]) y[k] = 0;
+        part += static_cast<double>(r[k]) * static_cast<double>(y[k]);
     });
     if (!far_is_set_ || product > 0) return;
     far_is_set_ = false;  // the correction is not proved to be positive definite
-    plane_.convolve(inverse_, {rows_, column_}, from_.data(), to_.data(), threads());
-    correct(y);
+    precondition(r, y);
 }
 
 void PeriodicElements::freed() {
     if (inverse_of_ != diagonal_) prepare_inverse();
     far_is_set_ = far_->exists();
-    from_.assign(free_.begin(), free_.end());
+    residual_.assign(free_.begin(), free_.end());
     ones_.resize(free_.size());
-    plane_.convolve(inverse_, {rows_, column_}, from_.data(), ones_.data(), threads());
-    if (!far_is_set_) return;
-    std::vector<float> m(ones_.size());
-    each([&](std::size_t k) { m[k] = free_[k] ? std::max(ones_[k], 0.0f) : 0.0f; });
-    far_->set({rows_, column_}, std::move(m), threads());
+    plane_.convolve(inverse_, {rows_, column_}, residual_.data(), ones_.data(), threads());
+    if (far_is_set_) far_->set({rows_, column_}, ones_, residual_, threads());
 }
 
 bool PeriodicElements::judge_exactly(bool exact, double residual, int) {
@@ -483,13 +479,13 @@ double PeriodicElements::stiffness(bool back) {
 }
 
 void PeriodicElements::keep(ArchiveWriter& to) const {
-    const BoundedSolver& solved = *this;
+    const BoundedSolver<float>& solved = *this;
     archive(to, solved);
     to(column_);
 }
 
 void PeriodicElements::recall(ArchiveReader& from) {
-    BoundedSolver& solved = *this;
+    BoundedSolver<float>& solved = *this;
     archive(from, solved);
     from(column_);
     const auto inside = [&](std::int32_t i) { return i >= 0 && i < relief_.nx; };

@@ -24,7 +24,7 @@ struct Relief {
 // (recursively), so that both short and long waves converge in few steps. Products are in single
 // precision while the error is large; the final error is computed in double precision. Levels are
 // independent of each other.
-class PeriodicElements : private BoundedSolver {
+class PeriodicElements : private BoundedSolver<float> {
 public:
     // Pressures are limited to `highest` (the hardness; Infinity: no limit); where p = highest, w
     // may be negative. Throws Error(bad_input) if all heights are equal, Error(no_memory).
@@ -120,17 +120,16 @@ private:
     std::vector<std::size_t> pressed_by_row() const;
     std::vector<Pixel> set() const;  // the pixels under pressure and some others, row by row
 
-    void multiply(const std::vector<double>& x, std::vector<double>& Kx, bool exact) override;
-    void multiply_roughly(const std::vector<double>& x, std::vector<double>& Kx) override;
-    template <class Real>
-    void multiply_by(PeriodicPixels<Real>& pixels, const std::vector<double>& x,
-                     std::vector<double>& Kx);
+    void multiply(const Array<double>& x, Array<double>& Kx, bool exact) override;
+    void multiply_roughly(const Array<float>& x, Array<float>& Kx) override;
+    template <class Real, class T>
+    void multiply_by(PeriodicPixels<Real>& pixels, const Array<T>& x, Array<T>& Kx);
     double outside() override;
     void clip() override;
     void renew() override;
-    void precondition(const std::vector<double>& r, std::vector<double>& y) override;
-    void precondition_ones(std::vector<double>& y) override;
-    void correct(std::vector<double>& y);
+    void precondition(const Array<float>& r, Array<float>& y) override;
+    void precondition_ones(Array<float>& y) override;
+    void correct(const Array<float>& r, Array<float>& y);
     void freed() override;
     bool judge_exactly(bool exact, double residual, int rounds) override;
 
@@ -145,17 +144,19 @@ private:
     std::optional<double> closing_;  // closing_pressure(), once it is known
     double aspect_;                  // dy/dx
     double inverse_of_ = 0;          // the diagonal for which the preconditioner is
+    Array<double> transformed_;      // the plane of inner_ or of fine_, whichever was used last
     PeriodicPixels<float> inner_;
     std::unique_ptr<PeriodicPixels<double>> fine_;
     SparsePlane plane_;
     PixelStencil inverse_;  // preconditioner, within its reach and beyond
     std::unique_ptr<BlockCorrection> far_;
     bool far_is_set_ = false;
-    std::unique_ptr<SplitPixels> split_;   // null: not for this grid
-    std::vector<float> from_, to_, ones_;  // ones_: truncated K^-1 times 1 over the free pixels
+    std::unique_ptr<SplitPixels> split_;  // null: not for this grid
+    Array<float> ones_;                   // truncated K^-1 times 1 over the free pixels
     long products_ = 0;
-    bool exact_ = false;                // the last product with p is in fine_ (true) or inner_
-    std::vector<std::int32_t> column_;  // of the set
+    bool exact_ = false;               // the last product with p is that of fine_, not of inner_
+    Array<std::int32_t> column_;       // of the set
+    Array<std::int32_t> next_column_;  // inside renew()
     struct Penetration {
         std::int32_t column;
         double w;

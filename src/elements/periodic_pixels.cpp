@@ -4,7 +4,6 @@
 #include "base/library_lock.hpp"
 #include "base/parallel.hpp"
 #include "base/vector_math.hpp"
-#include "surface/surface.hpp"
 
 namespace rsc {
 namespace {
@@ -81,29 +80,19 @@ struct PeriodicPixels<Real>::Plans {
     std::size_t size() const { return length + (kColumns + 1) * stride; }
     // One for each thread: a row or column being transformed, a block of columns, and the factors
     // of a column.
-    std::vector<Memory> buffers;
+    std::vector<Array<Real>> buffers;
 };
 
 template <class Real>
-void PeriodicPixels<Real>::Free::operator()(Real* p) const noexcept {
-    HeightMap::Free()(reinterpret_cast<double*>(p));
-}
-
-template <class Real>
-typename PeriodicPixels<Real>::Memory PeriodicPixels<Real>::allocate(std::size_t n) {
-    constexpr std::size_t each = sizeof(double) / sizeof(Real);
-    return Memory(reinterpret_cast<Real*>(
-        allocate_doubles((n + each - 1) / each, "the pressures on all pixels")));
-}
-
-template <class Real>
 PeriodicPixels<Real>::PeriodicPixels(int nx, int ny, double dx, double dy,
-                                     const std::function<double(double)>& share)
+                                     const std::function<double(double)>& share,
+                                     Array<double>* plane)
     : nx_(nx),
       ny_(ny),
       dx_(dx),
       dy_(dy),
       threads_(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) >= kThreads),
+      plane_(plane ? plane : &own_),
       plans_(std::make_unique<Plans>()) {
     make_plans();
     if (!share) return;
@@ -136,7 +125,7 @@ template <class Real>
 template <class Factor>
 void PeriodicPixels<Real>::set_factors(Factor&& factor) {
     const int columns = (nx_ / 2 + kColumns) / kColumns * kColumns, half = ny_ / 2 + 1;
-    layered_ = allocate(static_cast<std::size_t>(columns) * static_cast<std::size_t>(half));
+    layered_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(half));
     parallel_for(half, kRows, static_cast<int>(plans_->buffers.size()), [&](int j) {
         for (int i = 0; i < columns; ++i)
             layered_[static_cast<std::size_t>(i) * static_cast<std::size_t>(half) +
@@ -154,15 +143,17 @@ void PeriodicPixels<Real>::make_plans() {
         (2 * static_cast<std::size_t>((nx / 2 + kColumns) / kColumns * kColumns) + line - 1) / line;
     lines += lines % 2 == 0;
     stride_ = lines * line;
-    plane_ = allocate(stride_ * static_cast<std::size_t>(ny));
+    // The contents, of others, are of no meaning.
+    const std::size_t size = stride_ * at(ny) * sizeof(Real) / sizeof(double);
+    if (plane_->size() < size) *plane_ = Array<double>(size);
     const auto whole_lines = [](std::size_t n) { return (n + line - 1) / line * line; };
     plans_->length = whole_lines(2 * static_cast<std::size_t>(std::max(nx / 2 + 1, ny)));
     plans_->stride = whole_lines(2 * static_cast<std::size_t>(ny)) +
                      line;  // columns that do not share cache sets
     const int threads = threads_ ? static_cast<int>(most_threads(0)) : 1;
-    for (int t = 0; t < threads; ++t) plans_->buffers.push_back(allocate(plans_->size()));
+    for (int t = 0; t < threads; ++t) plans_->buffers.emplace_back(plans_->size());
     const auto lock = fftw_planning();
-    Real *const row = plane_.get(), *const buffer = plans_->buffers[0].get(),
+    Real *const row = this->row(0), *const buffer = plans_->buffers[0].data(),
                 *const column = buffer + plans_->length;
     plans_->row_forward = Fftw<Real>::row_forward(nx, buffer, as_complex(row));
     plans_->row_backward = Fftw<Real>::row_backward(nx, as_complex(buffer), row);
@@ -225,7 +216,7 @@ void scale(Real* __restrict mode, std::size_t n, Real kx2, const Real* __restric
 template <class Real>
 typename PeriodicPixels<Real>::Columns PeriodicPixels<Real>::columns_from_plane(
     int block, std::size_t worker) {
-    Real* const modes = plans_->buffers[worker].get();
+    Real* const modes = plans_->buffers[worker].data();
     const Columns columns{modes, modes + plans_->length};
     to_columns(static_cast<std::size_t>(ny_), row(0) + at(block) * 2 * kColumns, stride_,
                columns.block, plans_->stride);
@@ -234,7 +225,7 @@ typename PeriodicPixels<Real>::Columns PeriodicPixels<Real>::columns_from_plane(
 
 template <class Real>
 void PeriodicPixels<Real>::columns_to_plane(int block, std::size_t worker) {
-    to_rows(static_cast<std::size_t>(ny_), plans_->buffers[worker].get() + plans_->length,
+    to_rows(static_cast<std::size_t>(ny_), plans_->buffers[worker].data() + plans_->length,
             plans_->stride, row(0) + at(block) * 2 * kColumns, stride_);
 }
 
@@ -275,9 +266,10 @@ void PeriodicPixels<Real>::columns(Answer answer) {
                 if (half_space_)
                     scale(modes, rows, static_cast<Real>(kx * kx), ky2.data(),
                           static_cast<Real>(points), answer == Answer::pressure, k);
-                if (layered_) {
+                if (!layered_.empty()) {
                     const std::size_t half = rows / 2 + 1;
-                    const Real* const layered = layered_.get() + static_cast<std::size_t>(i) * half;
+                    const Real* const layered =
+                        layered_.data() + static_cast<std::size_t>(i) * half;
                     for (std::size_t j = 0; j < rows; ++j) {
                         const Real share = layered[std::min(j, rows - j)],
                                    factor = answer == Answer::deflection ? share : 1 / share;
@@ -295,13 +287,13 @@ void PeriodicPixels<Real>::columns(Answer answer) {
 // The waves of a single row, which needs no transforms along y.
 template <class Real>
 void PeriodicPixels<Real>::scale_row(Answer answer) {
-    Real* const modes = plane_.get();
+    Real* const modes = row(0);
     const double unit = answer == Answer::deflection ? 2.0 / nx_ : 0.5 / nx_;
     for (int i = 0; i <= nx_ / 2; ++i) {
         const double k = 2 * std::numbers::pi * i / nx_;  // times dx
         double factor = !half_space_ ? 1 : answer == Answer::deflection ? unit / k : unit * k;
         if (i == 0 && half_space_) factor = 0;
-        const double share = layered_ ? static_cast<double>(layered_[at(i)]) : 1.0;
+        const double share = !layered_.empty() ? static_cast<double>(layered_[at(i)]) : 1.0;
         factor *= answer == Answer::deflection ? share : 1 / share;
         modes[2 * i] *= static_cast<Real>(factor);
         modes[2 * i + 1] *= static_cast<Real>(factor);
@@ -314,7 +306,7 @@ void PeriodicPixels<Real>::forward_rows(const Load& load) {
     const std::size_t used = 2 * static_cast<std::size_t>(nx_ / 2 + 1);
     parallel_for(ny_, kRows, static_cast<int>(plans_->buffers.size()),
                  [&](int j, std::size_t worker) {
-                     Real* const values = plans_->buffers[worker].get();
+                     Real* const values = plans_->buffers[worker].data();
                      load(j, values);
                      Fftw<Real>::execute(plans_->row_forward, values, as_complex(row(j)));
                      std::fill(row(j) + used, row(j) + stride_, Real(0));
@@ -326,7 +318,7 @@ void PeriodicPixels<Real>::backward_rows(const Take& take) {
     const std::size_t used = 2 * static_cast<std::size_t>(nx_ / 2 + 1);
     parallel_for(ny_, kRows, static_cast<int>(plans_->buffers.size()),
                  [&](int j, std::size_t worker) {
-                     Real* const modes = plans_->buffers[worker].get();
+                     Real* const modes = plans_->buffers[worker].data();
                      std::copy_n(row(j), used, modes);
                      Fftw<Real>::execute(plans_->row_backward, as_complex(modes), row(j));
                      take(j, row(j));
@@ -377,7 +369,7 @@ VectorPixels<Real>::VectorPixels(int nx, int ny, const VectorModes& modes)
     const std::size_t columns = at(nx) / 2 + 1, half = at(ny) / 2 + 1;
     const double points = static_cast<double>(nx) * ny;
     const auto turned = [&](const std::vector<double>& from) {
-        std::vector<Real> to(columns * half);
+        Array<Real> to(columns * half);
         for (const auto j : indices(half))
             for (const auto i : indices(columns))
                 to[i * half + j] = static_cast<Real>(from[j * columns + i] / points);

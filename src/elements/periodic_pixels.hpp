@@ -2,7 +2,7 @@
 // transforms over the whole period.
 #pragma once
 
-#include "base/std.hpp"
+#include "base/array.hpp"
 
 namespace rsc {
 
@@ -15,10 +15,11 @@ namespace rsc {
 template <class Real>
 class PeriodicPixels {
 public:
-    // `share` is a function of the wavenumber times dx; empty: homogeneous half-space. Throws
+    // `share` is a function of the wavenumber times dx; empty: homogeneous half-space. `plane`, which
+    // must outlive this, is memory for the plane, which others may use between calls. Throws
     // Error(no_memory), or Error(bad_input) if the grid is too large.
     PeriodicPixels(int nx, int ny, double dx, double dy,
-                   const std::function<double(double)>& share = {});
+                   const std::function<double(double)>& share = {}, Array<double>* plane = nullptr);
     // Any kernel that is even in both directions: modes[j (nx/2 + 1) + i], i <= nx/2, j <= ny/2, is
     // the factor of the modes of wavenumbers 2 pi i/(nx dx) and 2 pi j/(ny dy), of k = 0, too.
     PeriodicPixels(int nx, int ny, const std::vector<double>& modes);
@@ -27,8 +28,10 @@ public:
     PeriodicPixels& operator=(const PeriodicPixels&) = delete;
 
     // Row j of the plane on which the transforms operate, nx numbers.
-    Real* row(int j) { return plane_.get() + static_cast<std::size_t>(j) * stride_; }
-    const Real* row(int j) const { return plane_.get() + static_cast<std::size_t>(j) * stride_; }
+    Real* row(int j) { return reinterpret_cast<Real*>(plane_->data()) + at(j) * stride_; }
+    const Real* row(int j) const {
+        return reinterpret_cast<const Real*>(plane_->data()) + at(j) * stride_;
+    }
 
     enum class Answer { deflection, pressure };
     // Multiplies the plane by K/unit(), or by unit() K^-1 with mean 0. `load(j, row)` fills each
@@ -63,22 +66,18 @@ private:
     template <class Factor>
     void set_factors(Factor&& factor);
 
-    struct Free {
-        void operator()(Real* p) const noexcept;
-    };
     struct Plans;
-    using Memory = std::unique_ptr<Real[], Free>;
-    static Memory allocate(std::size_t n);
 
     int nx_, ny_;
     double dx_, dy_;
     std::size_t stride_;
     bool threads_;
-    Memory plane_;
+    Array<double> own_;  // unless the plane is of others
+    Array<double>* plane_ = &own_;
     bool half_space_ = true;  // modes are multiplied by 2/|k|, too
     // Factors of the modes with ky >= 0, [column][row]: 1 + share; none for a homogeneous
     // half-space.
-    Memory layered_;
+    Array<Real> layered_;
     std::unique_ptr<Plans> plans_;
 };
 
@@ -110,7 +109,7 @@ private:
     void mix(Real* x, Real* y, int column) const;
 
     PeriodicPixels<Real> x_, y_;
-    std::vector<Real> xx_, xy_, yy_;  // [column][row <= ny/2]
+    Array<Real> xx_, xy_, yy_;  // [column][row <= ny/2]
 };
 
 extern template class VectorPixels<float>;

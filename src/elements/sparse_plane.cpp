@@ -200,26 +200,20 @@ SplitPixels::SplitPixels(int nx, int ny, double aspect, const Share& share)
           },
           [](int) { return 1.0; }) {}
 
-void SplitPixels::multiply(SparsePlane& plane, const PixelSet& set, const std::vector<double>& x,
-                           std::vector<double>& Kx, int threads) {
+void SplitPixels::multiply(SparsePlane& plane, const PixelSet& set, const Array<float>& x,
+                           Array<float>& Kx, int threads) {
     const int mx = nx_ / kFactor, my = ny_ / kFactor;
-    x_.resize(x.size());
-    y_.resize(x.size());
     Kx.resize(x.size());
+    plane.convolve(near_, set, x.data(), Kx.data(), threads);
     const double total = sum_in_order(ny_, kRows, threads, [&](int j) {
-        double sum = 0;
-        for (std::size_t k = set.rows[at(j)]; k < set.rows[at(j) + 1]; ++k) {
-            x_[k] = static_cast<float>(x[k]);
-            sum += x[k];
-        }
-        return sum;
+        return std::accumulate(x.begin() + std::ptrdiff_t(set.rows[at(j)]),
+                               x.begin() + std::ptrdiff_t(set.rows[at(j) + 1]), 0.0);
     });
-    plane.convolve(near_, set, x_.data(), y_.data(), threads);
     // The near part of a uniform pressure, which deflects nothing.
     const double uniform =
         near_.transform(0) * total / (static_cast<double>(nx_) * static_cast<double>(ny_));
     // The pixels of each row are spread along x, then the rows along y.
-    spread(set, threads);
+    spread(set, x, threads);
     const std::size_t length = at(mx) + 3;
     const auto load = [&](int J, float* row) {
         std::fill_n(row, mx, 0.0f);
@@ -232,11 +226,11 @@ void SplitPixels::multiply(SparsePlane& plane, const PixelSet& set, const std::v
             }
     };
     coarse_.apply(load, [](int, const float*) {});
-    gather(set, uniform, Kx, threads);
+    gather(set, static_cast<float>(uniform), Kx, threads);
 }
 
-// Spreads x_ along the rows of the plane.
-void SplitPixels::spread(const PixelSet& set, int threads) {
+// Spreads x along the rows of the plane.
+void SplitPixels::spread(const PixelSet& set, const Array<float>& x, int threads) {
     const int mx = nx_ / kFactor;
     const std::size_t length = at(mx) + 3;
     lines_.resize(length * at(ny_));
@@ -256,7 +250,7 @@ void SplitPixels::spread(const PixelSet& set, int threads) {
                 last = q;
             }
             const std::array<float, 4>& along_x = kSplines[at(set.column[k] % kFactor)];
-            for (std::size_t u = 0; u < 4; ++u) sum[u] += x_[k] * along_x[u];
+            for (std::size_t u = 0; u < 4; ++u) sum[u] += x[k] * along_x[u];
         }
         store();
         line[at(mx)] += line[0];
@@ -265,9 +259,8 @@ void SplitPixels::spread(const PixelSet& set, int threads) {
     });
 }
 
-// Adds the coarse plane at the pixels to the near part, y_.
-void SplitPixels::gather(const PixelSet& set, double uniform, std::vector<double>& Kx,
-                         int threads) {
+// Adds the coarse plane at the pixels to the near part, Kx.
+void SplitPixels::gather(const PixelSet& set, float uniform, Array<float>& Kx, int threads) {
     const int mx = nx_ / kFactor, my = ny_ / kFactor;
     parallel_for(ny_, kRows, threads, [&](int j) {
         if (set.rows[at(j)] == set.rows[at(j) + 1]) return;
@@ -287,7 +280,7 @@ void SplitPixels::gather(const PixelSet& set, double uniform, std::vector<double
             const float* const from = line.data() + set.column[k] / kFactor;
             float far = 0;
             for (int u = 0; u < 4; ++u) far += along_x[at(u)] * from[u];
-            Kx[k] = static_cast<double>(y_[k]) + kFactor * static_cast<double>(far) - uniform;
+            Kx[k] += kFactor * far - uniform;
         }
     });
 }

@@ -11,7 +11,7 @@ namespace rsc {
 // Sorted pixels: those of row j have the columns column[rows[j]] ... column[rows[j + 1] - 1].
 struct PixelSet {
     const std::vector<std::size_t>& rows;
-    const std::vector<std::int32_t>& column;
+    std::span<const std::int32_t> column;
 };
 
 // A function of the offset (a, b) with |a| <= reach and |b| <= rows, even in a and in b, without
@@ -76,17 +76,17 @@ public:
     // much softer than short ones.
     static bool suits(int nx, int ny, double aspect, const Share& share = {});
     SplitPixels(int nx, int ny, double aspect, const Share& share = {});
-    void multiply(SparsePlane& plane, const PixelSet& set, const std::vector<double>& x,
-                  std::vector<double>& Kx, int threads);
+    void multiply(SparsePlane& plane, const PixelSet& set, const Array<float>& x, Array<float>& Kx,
+                  int threads);
 
 private:
-    void spread(const PixelSet& set, int threads);
-    void gather(const PixelSet& set, double uniform, std::vector<double>& Kx, int threads);
+    void spread(const PixelSet& set, const Array<float>& x, int threads);
+    void gather(const PixelSet& set, float uniform, Array<float>& Kx, int threads);
 
     int nx_, ny_;
     PeriodicPixels<float> coarse_;
     PixelStencil near_;
-    std::vector<float> x_, y_, lines_;
+    Array<float> lines_;
 };
 
 }  // namespace rsc

@@ -1,17 +1,12 @@
 #include "surface/surface.hpp"
 
+#include "base/array.hpp"
 #include "base/error.hpp"
 #include "base/library_lock.hpp"
 #include "base/parallel.hpp"
 
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
-
 namespace rsc {
 namespace {
-
-constexpr std::size_t kHugePage = std::size_t{2} << 20;
 
 // Mean over points of a map, without NaN. It adds up the sums of rows, because short partial sums
 // keep rounding errors small.
@@ -53,33 +48,7 @@ std::array<Mean, count> mean_of_rows(int first, int end, const Rows& rows) {
 }  // namespace
 
 double* allocate_doubles(std::size_t n, const char* purpose, bool zeros) {
-    // Systems that overcommit memory may accept any size; sizes beyond the address space are
-    // rejected here.
-    constexpr std::size_t kMost = std::size_t{1} << 44;
-    void* p = nullptr;
-    if (n < kMost) {
-        const std::size_t bytes = std::max<std::size_t>(n, 1) * sizeof(double);
-        const bool large = bytes >= 2 * kHugePage;
-        const std::size_t alignment = large ? kHugePage : 64;
-        p = zeros ? std::calloc(bytes, 1)
-                  : std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
-#if defined(__linux__)
-        constexpr std::size_t page = 4096;
-        void* const first =
-            reinterpret_cast<void*>((reinterpret_cast<std::uintptr_t>(p) + page - 1) / page * page);
-        if (p && large)
-            madvise(
-                first, bytes - page,
-                zeros ? MADV_NOHUGEPAGE : MADV_HUGEPAGE);  // a hint: failure costs time or memory
-#endif
-    }
-    if (!p) {
-        const double megabytes = static_cast<double>(n) * sizeof(double) / 1048576.0;
-        throw Error(Failure::no_memory, "no memory for " + std::string(purpose) + ": " +
-                                            std::to_string(std::llround(megabytes)) +
-                                            " MB requested");
-    }
-    return static_cast<double*>(p);
+    return allocate_numbers<double>(n, purpose, zeros);
 }
 
 void HeightMap::Free::operator()(double* p) const noexcept { std::free(p); }

@@ -10,7 +10,7 @@ using namespace rsc;
 struct Spots {
     std::vector<std::size_t> rows = {0};
     std::vector<std::int32_t> column;
-    std::vector<double> p;
+    Array<float> p;
 };
 
 // Discs of random size and place, some across the edges.
@@ -44,7 +44,8 @@ void split(int nx, int ny, double aspect, double tolerance,
     const Spots set = spots(nx, ny);
     PeriodicPixels<double> exact(nx, ny, 1, aspect, share);
     const auto n = nx;
-    std::vector<double> truth(set.p.size()), Kx, again;
+    std::vector<double> truth(set.p.size());
+    Array<float> Kx, again;
     exact.apply(
         [&](int j, double* row) {
             std::fill_n(row, n, 0.0);

@@ -1,5 +1,6 @@
 #include "physics/flow/flow.hpp"
 
+#include "base/array.hpp"
 #include "base/parallel.hpp"
 #include "elements/deformed.hpp"
 
@@ -53,7 +54,7 @@ GapMap gap_of(LevelSource& source) {
         const Path& contact = source.contact;
         const PointWindow whole{{0, map.nx - 1}, {0, map.ny - 1}, map.nx};
         const Pressures pressures = pressures_of(source.level.pixels);
-        std::vector<std::int32_t> touches(whole.points(), 0);
+        std::vector<std::int32_t> touches = zeros_on_huge_pages<std::int32_t>(whole.points());
         for (const auto& [point, load] : pressures) touches[at(point)] = load.touches;
         const auto [none, depths, lasting] = contact.remains(source.level);
         const HeightMap lowered = depths.depth.empty() ? HeightMap{} : lowered_map(map, depths);
