@@ -347,7 +347,8 @@ double ElementModel::power_of_depth(double otherwise) const {
     return grown >= 1 ? grown : otherwise;
 }
 
-// Depth of lowering in this step, expected from the mean of the last pressures, weighted by themselves.
+// Depth of lowering in this step, expected from the mean of the last pressures, weighted by
+// themselves.
 double ElementModel::lowering_in_step() const {
     if (!(rate() > 0)) return 0;
     const std::vector<double>& p = past_[0].p;

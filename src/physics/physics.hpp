@@ -189,8 +189,8 @@ struct Physics {
     void (*require_sound)(const BodyPhysics&) = nullptr;
     // Whether a run of asperities may compare some levels with elements of its own accord.
     bool (*compares_itself)(const Case&) = nullptr;
-    // Elements: the errors of N and A by the grid, where other things than the sizes of the contacts
-    // limit them; `few`: those by the sizes.
+    // Elements: the errors of N and A by the grid, where other things than the sizes of the
+    // contacts limit them; `few`: those by the sizes.
     GridError (*grid_error)(const Level&, const HeightMap&, const Indenter&, const BodyPhysics&,
                             const GridError& few) = nullptr;
     // Elements: whether the grid is too coarse for the length over which it acts, or the roughness

@@ -6,8 +6,8 @@
 namespace rsc {
 namespace {
 
-// Change of N, or under a force of the depth below first touch, when the steps of sliding to a level
-// are halved; of the area and the largest pressure, whose smallest change is a pixel; and a change
+// Change of N, or under a force of the depth below first touch, when the steps to a level are
+// halved; of the area and the largest pressure, whose smallest change is a pixel; and a change
 // of N that no longer matters, relative to N before the level.
 constexpr double kAccuracy = 2e-3, kCoarse = 0.05, kWornOff = 1e-6;
 constexpr int kMostSteps = 64;  // to a level
