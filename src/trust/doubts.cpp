@@ -41,7 +41,8 @@ std::string words_of_doubts(std::int32_t doubts) {
     return words;
 }
 
-void conclude(LevelValues& level, std::span<const Doubt> doubts, bool by_force) {
+void conclude(LevelValues& level, std::span<const Doubt> doubts, bool by_force, double pressed) {
+    const double of_area = std::isnan(pressed) ? 1 : std::abs(level.force) / pressed;
     double force = 0, area = 0, separation = 0;
     level.doubts = 0;
     for (const Doubt& doubt : doubts) {
@@ -57,7 +58,7 @@ void conclude(LevelValues& level, std::span<const Doubt> doubts, bool by_force) 
                                                  : LevelStatus::converged;
     const bool known = level.converged && !doubts.empty();
     level.force_error_expected = known && !by_force ? force : kNotComputed;
-    level.area_error_expected = known ? area + (by_force ? force : 0.0) : kNotComputed;
+    level.area_error_expected = known ? area + (by_force ? force * of_area : 0.0) : kNotComputed;
     level.separation_error_expected =
         known && by_force && level.stiffness < 0
             ? separation + force * std::abs(level.force) / std::abs(level.stiffness)

@@ -45,7 +45,9 @@ struct Doubt {
 
 // Sets status, doubts and expected errors of a level: the errors are the sums over all doubts, and
 // missing if one of them is not known. Under a prescribed force the error of N is one of the
-// separation, for which the level's stiffness must be known, and adds to that of the area.
-void conclude(LevelValues& level, std::span<const Doubt> doubts, bool by_force);
+// separation, for which the level's stiffness must be known, and adds to that of the area, relative
+// to the force `pressed` of all points under pressure; NaN: N.
+void conclude(LevelValues& level, std::span<const Doubt> doubts, bool by_force,
+              double pressed = kNotComputed);
 
 }  // namespace rsc

@@ -79,6 +79,13 @@ double scattered_share(const Measured* measured) {
                     : 0.0;
 }
 
+// The force of all points under pressure, which is N but for points under tension.
+double pressed_force(const Level& level) {
+    double sum = 0;
+    for (const double p : level.pixels.pressure) sum += std::max(p, 0.0);
+    return sum * level.pixels.dx * level.pixels.dy;
+}
+
 // The errors of the quantities of elements: by the resolution, by the steps of sliding, and the
 // error of N that other causes have.
 void state_errors(Level& level, std::span<const Doubt> doubts, const GridBodies& bodies) {
@@ -123,7 +130,7 @@ void Judge::judge(Level& level, Path& contact, bool by_force) {
         level.filled_share = share_on_filled(level, filled, indenter, options_.surface.sigma);
         if (level.filled_share > kMuchFilled) doubts.push_back({Cause::filled_points});
     }
-    conclude(level, doubts, by_force);
+    conclude(level, doubts, by_force, elements ? pressed_force(level) : kNotComputed);
     if (elements) state_errors(level, doubts, bodies(indenter));
 }
 
@@ -222,7 +229,8 @@ Doubt Judge::grid(const Level& level, Path& contact) const {
         const GridError error = p->grid_error(level, map, indenter, options_.physics, by_size);
         doubt.force = error.force;
         doubt.area = error.area;
-        doubt.serious = !(error.force <= kMuchError);
+        // Where tension nearly balances it, N is small beside what presses.
+        doubt.serious = !(error.force * std::abs(level.force) <= kMuchError * pressed_force(level));
         return doubt;
     }
     const double stiffness = std::isnan(level.stiffness) ? contact.stiffness() : level.stiffness;

@@ -228,6 +228,27 @@ TEST(largest_pressure_of_yielding) {
     CHECK(level.plastic_contacts > 0 && error(level) == 0);
 }
 
+// Without load a ball that attracts touches over A = pi (6 pi w R^2/K)^(2/3), K = 4 E*/3 (Johnson,
+// Kendall and Roberts 1971). Its error is not that of N, which nearly vanishes.
+TEST(attraction_without_load) {
+    const Folder folder;
+    Case c = case_of_map(folder.write(
+        "flat.txt", rows_of_text(64, 64, [](int i, int j) { return (i + j) % 2 ? 1e-9 : -1e-9; })));
+    c.surface.L = 1.0;
+    c.solids.E[0] = 2;
+    c.solids.nu[0] = 0.49;
+    c.solids.E[1] = kInfinity;
+    c.solids.R[1] = 3;
+    c.solids.adhesion = 6e-5;
+    c.indentation.control = Control::force;
+    c.indentation.levels = {1e-3, 1e-7};
+    const Level level = pressed(c, ModelKind::elements).back();
+    const double K = 4.0 / 3 * 2 / (1 - 0.49 * 0.49),
+                 area = pi * std::pow(6 * pi * 6e-5 * 9 / K, 2.0 / 3);
+    CHECK(std::abs(level.area / area - 1) <= level.area_error_expected);
+    CHECK(level.area_error_expected < 0.2 && !has(level, Cause::grid));
+}
+
 // Errors add up; one that is not known makes their sum unknown. Serious doubts alone raise the
 // status, which says the gravest thing.
 TEST(doubts_combined_once) {
