@@ -15,8 +15,8 @@ namespace rsc {
 template <class Real>
 class PeriodicPixels {
 public:
-    // `share` is a function of the wavenumber times dx; empty: homogeneous half-space. `plane`, which
-    // must outlive this, is memory for the plane, which others may use between calls. Throws
+    // `share` is a function of the wavenumber times dx; empty: homogeneous half-space. `plane`,
+    // which must outlive this, is memory for the plane, which others may use between calls. Throws
     // Error(no_memory), or Error(bad_input) if the grid is too large.
     PeriodicPixels(int nx, int ny, double dx, double dy,
                    const std::function<double(double)>& share = {}, Array<double>* plane = nullptr);
