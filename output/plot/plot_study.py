@@ -79,7 +79,8 @@ def _at_load(results, load, name):
         for values in _over_levels(result, name):
             log = (values[at] > 0).all()
             y = np.interp(np.log(wanted), np.log(known), np.log(values[at]) if log else values[at])
-            row.append(np.exp(y) if log else y)
+            y = np.exp(y) if log else y
+            row.append(np.round(y) if name == "contacts" and result.realizations == 1 else y)
         found.append(row)
     return Panel(name, *np.array(found, float).T, results[0].dimension(name))
 
