@@ -319,10 +319,11 @@ void tell_form_and_heights(const Measured& m, const char* l, std::vector<std::st
 
 void tell_spectrum(const Measured& m, const char* l, std::vector<std::string>& lines) {
     constexpr double kKnown = 0.5;  // of the interval of a Hurst exponent, 0 to 1
-    if (m.fit && m.fit->hurst.error > kKnown)
-        return lines.push_back(
+    const bool unknown = m.fit && m.fit->hurst.error > kKnown;
+    if (unknown)
+        lines.emplace_back(
             "spectrum: not that of a self-affine surface (hurst and its wavelengths are unknown)");
-    if (m.fit) {
+    else if (m.fit) {
         const SelfAffineFit& fit = *m.fit;
         const double two_pi = 2 * std::numbers::pi;
         const char* const plateau =
@@ -341,9 +342,9 @@ void tell_spectrum(const Measured& m, const char* l, std::vector<std::string>& l
             l, plateau, two_pi / fit.ks.value, l, fit.ks_seen ? "" : " (limit of the grid)",
             m.points_per_wave()));
     } else {
-        lines.push_back("spectrum: not fitted, there are too few points or no heights");
+        lines.emplace_back("spectrum: not fitted, there are too few points or no heights");
     }
-    if (m.points_per_wave() < kFewPointsPerWave)
+    if (!unknown && m.points_per_wave() < kFewPointsPerWave)
         lines.push_back(
             format("warning: fewer than %.0f points in the shortest wave: slopes, curvatures and "
                    "summits are determined by the grid or by pixel noise; "

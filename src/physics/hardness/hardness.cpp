@@ -297,8 +297,8 @@ void print_yielding(std::ostream& out, const RunFacts& run) {
         out << "  no contact yields: pressures stay below the hardness.\n";
         return;
     }
-    out << format("  level %td, %s: %d of %d contacts yield", most - levels.begin() + 1,
-                  run.place_of(*most).c_str(), most->plastic_contacts, most->contacts);
+    out << format("  %s: %d of %d contacts yield", run.place_of(*most).c_str(),
+                  most->plastic_contacts, most->contacts);
     double lost = 0;
     for (const LevelValues& level : levels)
         lost = std::max(lost, level.plastic_work);  // NaN if a level did not converge
