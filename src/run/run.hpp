@@ -26,7 +26,7 @@ struct RunOptions {
 struct RunSummary {
     // Of all realizations, including those compared with elements; failed: not converged.
     long levels = 0, failed = 0;
-    long held = 0;  // of these those whose force no state has (Fallback::held)
+    long held = 0;            // of these those whose force no state has (Fallback::held)
     long doubtful = 0;        // levels with doubts
     std::int32_t doubts = 0;  // all of these (trust/doubts.hpp)
     // Means over the realizations at the first and the last level.
