@@ -63,8 +63,8 @@ def smooth_axis(result, step, z):
 
 
 def stress(results, options):
-    """The largest stresses at each depth at one level, beside those under a smooth ball or cylinder of
-    the same load."""
+    """The largest stresses at each depth at one level, beside those under a smooth ball or cylinder
+    of the same load."""
     results = [r for r in results if "mises_max" in r]
     if len(results) != 1:
         return None

@@ -592,7 +592,7 @@ Level Path::approach_force(double N) {
     }
     history()->read(least.history);
     level = solve(least.separation, false);
-    level.least_force = least_on_path;
+    level.least_force = std::min(least_on_path, level.force);
     level.fallback = Fallback::held;
     level.converged = false;
     return level;

@@ -446,8 +446,8 @@ double error_of_least_force(std::span<const LevelValues> levels) {
     const auto least = std::ranges::min_element(levels, {}, [](const LevelValues& level) {
         return std::isnan(level.force) ? kInfinity : level.force;
     });
-    if (least == levels.end() || least->force_error_expected >= 0)
-        return least == levels.end() ? kNotComputed : least->force_error_expected;
+    if (least == levels.end()) return kNotComputed;
+    if (least->force_error_expected >= 0) return least->force_error_expected;
     return least->separation_error_expected * std::abs(least->stiffness / least->force);
 }
 

@@ -13,8 +13,8 @@ std::string sentence(Cause cause, bool elements) {
         "surface ends there",
         "the contact may lie on missing points of the map, which are filled smoothly: N is too "
         "small",
-        "the contacts have too few pixels: the error of N is above 3 % (with adhesion 10 %), or "
-        "that of A above 10 %",
+        "the contacts have too few pixels: the error of N is above 3 % (with adhesion 10 % of "
+        "what presses), or that of A above 10 %",
         "the indenter is steep compared with the surface (slope_ratio above 0.2), so that it "
         "touches flanks, not summits",
         "spots are larger than those for which the contact law and its expected error hold",
@@ -41,8 +41,14 @@ std::string words_of_doubts(std::int32_t doubts) {
     return words;
 }
 
+// What an error of N, relative, adds to that of A: at most the gap between two flats.
+static double share_of_area(const LevelValues& level, double force, double pressed) {
+    const double f = level.area_fraction,  // NaN: not two flats
+        share = std::isnan(pressed) ? force : force * std::abs(level.force) / pressed;
+    return f > 0.5 ? std::min(share, (1 - f) / f) : share;
+}
+
 void conclude(LevelValues& level, std::span<const Doubt> doubts, bool by_force, double pressed) {
-    const double of_area = std::isnan(pressed) ? 1 : std::abs(level.force) / pressed;
     double force = 0, area = 0, separation = 0;
     level.doubts = 0;
     for (const Doubt& doubt : doubts) {
@@ -58,7 +64,8 @@ void conclude(LevelValues& level, std::span<const Doubt> doubts, bool by_force, 
                                                  : LevelStatus::converged;
     const bool known = level.converged && !doubts.empty();
     level.force_error_expected = known && !by_force ? force : kNotComputed;
-    level.area_error_expected = known ? area + (by_force ? force * of_area : 0.0) : kNotComputed;
+    level.area_error_expected =
+        known ? area + (by_force ? share_of_area(level, force, pressed) : 0.0) : kNotComputed;
     level.separation_error_expected =
         known && by_force && level.stiffness < 0
             ? separation + force * std::abs(level.force) / std::abs(level.stiffness)

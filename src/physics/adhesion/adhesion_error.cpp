@@ -9,12 +9,11 @@
 namespace rsc {
 namespace {
 
-// Smallest cohesive resolution. Error of N over the force of the traction
-// s0 on a strip of one pixel along the edge of what attracts: edges are resolved to a pixel only,
-// and errors of separate contacts cancel on average (smooth spheres: 0.25 to 1.05 for Maugis's
-// lambda from 0.3 to 4). Error of A: of w on the area, times the inverse of
-// the resolution, and of edges, times h over the radius. Found by hand; test_adhesive_elements
-// checks that 90 % are within.
+// Smallest cohesive resolution. Error of N over the force of the traction s0 on a strip of one pixel
+// along the edge of what attracts: edges are resolved to a pixel only, and errors of separate
+// contacts cancel on average (smooth spheres: 0.25 to 1.05 for Maugis's lambda from 0.3 to 4).
+// Error of A: of w on the area, times the inverse of the resolution, and of edges, times h over the
+// radius. Found by hand; test_adhesive_elements checks that 90 % are within.
 constexpr double kResolved = 4, kEdgeError = 1.1, kWorkError = 0.8, kRadiusError = 0.8;
 // Ranges above this share of the rms height under the contact are a doubt, except for bodies that
 // are smoother than a share of the range.

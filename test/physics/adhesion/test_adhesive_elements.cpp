@@ -192,6 +192,7 @@ TEST(test_force) {
     CHECK_CLOSE(same.force, 0.02, 2e-6);
     const Level held = one->at_force(-10);
     CHECK(!held.converged && held.fallback == Fallback::held && held.force < 0);
+    CHECK(held.least_force <= held.force);
     SolverOptions few = attracting(0.02, 0.15);
     few.max_iterations = 1;
     const Level none = make_element_contact(map, tip, few)->at_separation(carried.separation);
