@@ -5,6 +5,7 @@
 // this table.
 #pragma once
 
+#include "base/array.hpp"
 #include "contact/path.hpp"
 #include "surface/surface.hpp"
 
@@ -25,7 +26,7 @@ struct LevelSource {
     // Two flats: their gap is counted in so many bins of this width [length]; 0: it is not.
     int gap_bins = 0;
     double gap_bin = 0;
-    std::vector<double> gap = {};  // of two flats at all points; empty: not yet computed [length]
+    Array<double> gap = {};  // of two flats at all points; empty: not yet computed [length]
 };
 
 struct LevelQuantity {

@@ -39,8 +39,12 @@ std::vector<float> BlockCorrection::sums(const PixelSet& set, const float* r, in
     std::vector<float> sums(at(mx_) * at(my_), 0.0f);
     parallel_for(my_, 1, threads, [&](int J) {
         for (int j = J * side_; j < (J + 1) * side_; ++j)
-            for (std::size_t k = set.rows[at(j)]; k < set.rows[at(j) + 1]; ++k)
-                sums[at(J) * at(mx_) + at(set.column[k] / side_)] += m(k) * r[k];
+            for (std::size_t k = set.rows[at(j)]; k < set.rows[at(j) + 1];) {
+                const int block = set.column[k] / side_, end = (block + 1) * side_;
+                float part = 0;
+                for (; k < set.rows[at(j) + 1] && set.column[k] < end; ++k) part += m(k) * r[k];
+                sums[at(J) * at(mx_) + at(block)] += part;
+            }
     });
     return sums;
 }
@@ -112,8 +116,12 @@ void BlockCorrection::subtract(const PixelSet& set, const float* r, float* y, in
     });
     parallel_for(my_, 1, threads, [&](int J) {
         const float* const field = image.data() + at(J) * at(mx_);
-        for (std::size_t k = set.rows[at(J * side_)]; k < set.rows[at((J + 1) * side_)]; ++k)
-            y[k] -= m(k) * field[set.column[k] / side_];
+        for (int j = J * side_; j < (J + 1) * side_; ++j)
+            for (std::size_t k = set.rows[at(j)]; k < set.rows[at(j) + 1];) {
+                const int block = set.column[k] / side_, end = (block + 1) * side_;
+                for (; k < set.rows[at(j) + 1] && set.column[k] < end; ++k)
+                    y[k] -= m(k) * field[block];
+            }
     });
 }
 

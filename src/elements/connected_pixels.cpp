@@ -82,11 +82,16 @@ double squares_across_rows(const std::vector<Pixel>& pixels, int period) {
 
 }  // namespace
 
-double squares_of_straight_parts(std::vector<Pixel> pixels, int period_x, int period_y) {
-    const double across = squares_across_rows(pixels, period_x);
-    for (Pixel& p : pixels) std::swap(p.x, p.y);
-    std::ranges::sort(pixels, {}, [](const Pixel& p) { return std::pair(p.y, p.x); });
-    return across + squares_across_rows(pixels, period_y);
+double squares_of_straight_parts(const std::vector<Pixel>& pixels, int period_x, int period_y) {
+    // Transposed, with rows and columns exchanged.
+    int columns = 0;
+    for (const Pixel& p : pixels) columns = std::max(columns, p.x + 1);
+    std::vector<std::size_t> next(at(columns) + 1, 0);
+    for (const Pixel& p : pixels) ++next[at(p.x) + 1];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    std::vector<Pixel> transposed(pixels.size());
+    for (const Pixel& p : pixels) transposed[next[at(p.x)]++] = {p.y, p.x};
+    return squares_across_rows(pixels, period_x) + squares_across_rows(transposed, period_y);
 }
 
 std::vector<int> open_sides(const std::vector<Pixel>& pixels, int period_x, int period_y) {

@@ -15,6 +15,6 @@ int connected_sets(const std::vector<Pixel>& pixels, std::vector<int>& label, in
 std::vector<int> open_sides(const std::vector<Pixel>& pixels, int period_x, int period_y);
 
 // The sum of the squares of the lengths of the straight parts of their borders, in sides.
-double squares_of_straight_parts(std::vector<Pixel> pixels, int period_x, int period_y);
+double squares_of_straight_parts(const std::vector<Pixel>& pixels, int period_x, int period_y);
 
 }  // namespace rsc

@@ -25,16 +25,16 @@ Pressures pressures_of(const LevelPixels& pixels) {
     return {with_tension.begin(), with_tension.end()};
 }
 
-std::vector<double> deflections(const HeightMap& map, const Indenter& indenter,
-                                const Pressures& pressures, const PointWindow& window) {
+Array<double> deflections(const HeightMap& map, const Indenter& indenter,
+                          const Pressures& pressures, const PointWindow& window) {
     const PointRange &columns = window.columns, &rows = window.rows;
-    std::vector<double> u = zeros_on_huge_pages<double>(window.points());
-    if (pressures.empty()) return u;
+    if (pressures.empty()) return Array<double>(window.points(), 0.0);
     const Substrate body = substrate_of(indenter);
     if (indenter.period.finite()) {
         std::function<double(double)> share;
         if (body.smooth()) share = [&](double k) { return body.smooth()->share(k); };
-        PeriodicPixels<double> whole(map.nx, map.ny, map.dx, map.dy, share);
+        Array<double> plane;
+        PeriodicPixels<double> whole(map.nx, map.ny, map.dx, map.dy, share, &plane);
         whole.apply(
             [&](int j, double* row) {
                 std::fill_n(row, map.nx, 0.0);
@@ -44,17 +44,20 @@ std::vector<double> deflections(const HeightMap& map, const Indenter& indenter,
                      k != pressures.end() && k->first < begin + map.nx; ++k)
                     row[k->first - begin] = k->second.pressure / body.modulus();
             },
-            [&](int j, const double* row) {
-                if (j < rows.first || j > rows.last) return;
-                for (int i = columns.first; i <= columns.last; ++i)
-                    u[window.index(i, j)] = whole.unit() * row[i];
+            [&](int j, const double*) {
+                for (int i = columns.first; i <= columns.last; ++i) whole.row(j)[i] *= whole.unit();
             });
-        return u;
+        // The rows of the plane are longer than those of the window, and move to smaller addresses.
+        for (int j = rows.first; j <= rows.last; ++j)
+            std::copy_n(whole.row(j) + columns.first, columns.size(),
+                        plane.data() + window.index(columns.first, j));
+        plane.resize(window.points());
+        return plane;
     }
     constexpr double kError = 1e-6;
     const auto products = make_products(body, indenter.period, map, kError, kError, false);
     std::vector<Pixel> pixels;  // of the window, then others under pressure
-    std::vector<double> p(u.size(), 0.0);
+    std::vector<double> p(window.points(), 0.0);
     for (int j = rows.first; j <= rows.last; ++j)
         for (int i = columns.first; i <= columns.last; ++i) pixels.push_back({i, j});
     for (const auto& [point, load] : pressures) {
@@ -67,13 +70,12 @@ std::vector<double> deflections(const HeightMap& map, const Indenter& indenter,
     }
     std::vector<double> w(p.size());
     products->elsewhere(p.data(), pixels, w.data());
-    u.assign(w.begin(), w.begin() + static_cast<std::ptrdiff_t>(u.size()));
-    return u;
+    return Array<double>(w.begin(), w.begin() + static_cast<std::ptrdiff_t>(window.points()));
 }
 
-std::vector<double> gaps(const HeightMap& heights, const Indenter& indenter, double separation,
-                         const std::vector<std::int32_t>& touches, const PointWindow& window,
-                         std::vector<double> deflection) {
+Array<double> gaps(const HeightMap& heights, const Indenter& indenter, double separation,
+                   const std::vector<char>& touches, const PointWindow& window,
+                   Array<double> deflection) {
     const PointRange &columns = window.columns, &rows = window.rows;
     parallel_for(rows.size(), kRows, 0, [&](int j) {
         for (int i = 0; i < columns.size(); ++i) {

@@ -1,6 +1,7 @@
 // The deformed surface of a level at points of a map: deflections by its pressures, and the gap.
 #pragma once
 
+#include "base/array.hpp"
 #include "contact/level.hpp"
 #include "surface/surface.hpp"
 
@@ -41,14 +42,14 @@ struct PointWindow {
 Pressures pressures_of(const LevelPixels& pixels);
 
 // Deflections by the pressures at the points of a window, row by row [length].
-std::vector<double> deflections(const HeightMap& map, const Indenter& indenter,
-                                const Pressures& pressures, const PointWindow& window);
+Array<double> deflections(const HeightMap& map, const Indenter& indenter,
+                          const Pressures& pressures, const PointWindow& window);
 
 // Gap between the indenter at a separation and the heights less their deflection, at the points of
 // a window [length]: 0 where `touches`, and not below; NaN outside a map of the indenter.
-std::vector<double> gaps(const HeightMap& heights, const Indenter& indenter, double separation,
-                         const std::vector<std::int32_t>& touches, const PointWindow& window,
-                         std::vector<double> deflection);
+Array<double> gaps(const HeightMap& heights, const Indenter& indenter, double separation,
+                   const std::vector<char>& touches, const PointWindow& window,
+                   Array<double> deflection);
 
 // The map without what was permanently lowered.
 HeightMap lowered_map(const HeightMap& map, const ResidualProfile& lowered);

@@ -159,10 +159,10 @@ std::size_t values_of(const std::vector<std::size_t>& shape) {
     return n;
 }
 
-template <class Action>
-void for_each_row(const RowFiller& fill, const std::vector<std::size_t>& shape,
+template <class T, class Action>
+void for_each_row(const Filler<T>& fill, const std::vector<std::size_t>& shape,
                   const Action& action) {
-    std::vector<double> row(values_of({shape.begin() + 1, shape.end()}));
+    std::vector<T> row(values_of({shape.begin() + 1, shape.end()}));
     for (std::size_t j = 0; j < shape[0]; ++j) {
         fill(j, row);
         action(j, row);
@@ -185,19 +185,22 @@ std::vector<std::size_t> chunks(const std::vector<std::size_t>& shape) {
 // Bytes of nearly empty maps are deflated in less time, and to less, if they are not shuffled
 // first.
 bool mostly_zero(const NetcdfVariable& v, const std::vector<std::size_t>& shape) {
+    if (std::holds_alternative<FlagFiller>(v.values)) return true;
     std::size_t zeros = 0;
-    if (v.bytes) return true;
     const auto count = [&](std::span<const double> values) {
         zeros += at(std::ranges::count(values, 0.0));
     };
     if (const auto* values = std::get_if<std::vector<double>>(&v.values)) count(*values);
     if (const auto* rows = std::get_if<RowFiller>(&v.values))
-        for_each_row(*rows, shape, [&](std::size_t, std::span<const double> row) { count(row); });
+        for_each_row<double>(*rows, shape,
+                             [&](std::size_t, std::span<const double> row) { count(row); });
     return 2 * zeros > values_of(shape);
 }
 
 void put_values(int ncid, int varid, const NetcdfVariable& v, const std::vector<std::size_t>& shape,
                 const std::string& path) {
+    std::vector<std::size_t> start(shape.size(), 0), count = shape;
+    if (!count.empty()) count[0] = 1;  // of rows
     if (const auto* integers = std::get_if<std::vector<std::int32_t>>(&v.values)) {
         check(nc_put_var_int(ncid, varid, integers->data()), path);
     } else if (const auto* doubles = std::get_if<std::vector<double>>(&v.values)) {
@@ -211,12 +214,16 @@ void put_values(int ncid, int varid, const NetcdfVariable& v, const std::vector<
         }
         check(nc_put_var_double(ncid, varid, absent ? filled.data() : doubles->data()), path);
     } else if (const auto* rows = std::get_if<RowFiller>(&v.values)) {
-        std::vector<std::size_t> start(shape.size(), 0), count = shape;
-        count[0] = 1;
-        for_each_row(*rows, shape, [&](std::size_t j, std::span<const double> row) {
+        for_each_row<double>(*rows, shape, [&](std::size_t j, std::span<const double> row) {
             start[0] = j;
             check(nc_put_vara_double(ncid, varid, start.data(), count.data(), row.data()), path);
         });
+    } else if (const auto* flags = std::get_if<FlagFiller>(&v.values)) {
+        for_each_row<signed char>(
+            *flags, shape, [&](std::size_t j, std::span<const signed char> row) {
+                start[0] = j;
+                check(nc_put_vara_schar(ncid, varid, start.data(), count.data(), row.data()), path);
+            });
     } else if (const auto* texts = std::get_if<std::vector<std::string>>(&v.values)) {
         std::string padded;
         for (const std::string& text : *texts)
@@ -264,8 +271,8 @@ void NetcdfFile::check_values(const NetcdfVariable& v) const {
         finite = std::ranges::none_of(*doubles, bad);
     } else if (const auto* integers = std::get_if<std::vector<std::int32_t>>(&v.values)) {
         fits = integers->size() == size;
-    } else if (const auto* rows = std::get_if<RowFiller>(&v.values); rows && !v.bytes) {
-        for_each_row(*rows, lengths, [&](std::size_t, std::span<const double> row) {
+    } else if (const auto* rows = std::get_if<RowFiller>(&v.values); rows) {
+        for_each_row<double>(*rows, lengths, [&](std::size_t, std::span<const double> row) {
             finite = finite && std::ranges::none_of(row, bad);
         });
     } else if (const auto* texts = std::get_if<std::vector<std::string>>(&v.values)) {
@@ -293,7 +300,7 @@ void NetcdfFile::define_and_put(int ncid, Format format, int compression,
         std::vector<int> ids(v.dimensions.size());
         for (const auto d : indices(ids))
             check(nc_inq_dimid(ncid, v.dimensions[d].c_str(), &ids[d]), path);
-        const nc_type type = v.bytes                                                       ? NC_BYTE
+        const nc_type type = std::holds_alternative<FlagFiller>(v.values)                  ? NC_BYTE
                              : std::holds_alternative<std::vector<std::int32_t>>(v.values) ? NC_INT
                              : std::holds_alternative<std::vector<std::string>>(v.values)
                                  ? NC_CHAR
@@ -333,7 +340,8 @@ void NetcdfFile::write(const std::string& path, Format format, int compression) 
 
     double bytes = 0;
     for (const NetcdfVariable& v : variables_)
-        bytes += (v.bytes ? 1 : 8) * double(values_of(shape(v)));
+        bytes +=
+            (std::holds_alternative<FlagFiller>(v.values) ? 1 : 8) * double(values_of(shape(v)));
     // The image of the file is copied when it grows, and once more for reading.
     require_memory(3 * bytes + (32 << 20), "for '" + path + "'",
                    "; write less (&output contacts, heights, map_cells)");

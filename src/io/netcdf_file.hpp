@@ -11,14 +11,17 @@ using NetcdfAttribute =
 using NetcdfAttributes = std::vector<std::pair<std::string, NetcdfAttribute>>;
 
 // Fills in the values at one index of the first dimension; they need not be in memory all at once.
-using RowFiller = std::function<void(std::size_t index, std::span<double> values)>;
+template <class T>
+using Filler = std::function<void(std::size_t index, std::span<T> values)>;
+using RowFiller = Filler<double>;
+using FlagFiller = Filler<signed char>;  // stored in one byte each
 
 struct NetcdfVariable {
     std::string name;
     std::vector<std::string> dimensions;  // slowest first; none for a scalar
     std::string units, long_name;
     // Texts: two dimensions, the last one their longest length in bytes; shorter ones end in zeros.
-    std::variant<std::vector<double>, std::vector<std::int32_t>, RowFiller,
+    std::variant<std::vector<double>, std::vector<std::int32_t>, RowFiller, FlagFiller,
                  std::vector<std::string>>
         values;
     NetcdfAttributes attributes;
@@ -27,7 +30,6 @@ struct NetcdfVariable {
     // Incompressible numbers: deflate saves a quarter at most and takes ten times as long as
     // writing.
     bool disorder = false;
-    bool bytes = false;  // rows of flags, stored in one byte each
 };
 
 class NetcdfFile {

@@ -264,10 +264,10 @@ void ResultTable::contact_mask() {
     add("mask_x", {"mask_x"}, unit(1), "x of the pixels of contact_mask",
         each_of(columns, [&](int i) { return grid.x_of(left + i); }));
     const double most = largest_pressure(r_.settings);
-    const auto fill = [=, this](std::size_t k, std::span<double> row) {
-        std::ranges::fill(row, 0);
+    const auto fill = [=, this](std::size_t k, std::span<signed char> row) {
+        std::ranges::fill(row, static_cast<signed char>(0));
         const LevelPixels& p = r_.pixels[at(steps[k])];
-        const auto kind_of = [&](std::int32_t pixel) -> double& {
+        const auto kind_of = [&](std::int32_t pixel) -> signed char& {
             const int i = pixel % p.columns - left, j = pixel / p.columns - bottom;
             return row[at(j) * at(columns) + at(i)];
         };
@@ -279,11 +279,8 @@ void ResultTable::contact_mask() {
                     {"mask_step", "mask_y", "mask_x"},
                     "1",
                     "pixels in contact, at the hardness, or attracted without contact",
-                    RowFiller(fill),
-                    flags(kinds),
-                    false,
-                    false,
-                    true});
+                    FlagFiller(fill),
+                    flags(kinds)});
 }
 
 void ResultTable::residual_profile() {

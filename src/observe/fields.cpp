@@ -234,7 +234,7 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
         const HeightMap& lowered = changed.data ? changed : map;
         if (asked.worn) add_heights(lowered);
         std::vector<double> p(window.points(), 0.0);
-        std::vector<std::int32_t> touches(p.size(), 0);
+        std::vector<char> touches(p.size(), 0);
         for (const auto& [point, load] : pressures[s])
             if (const auto inside = window.find(point)) {
                 p[*inside] = load.pressure;
@@ -244,9 +244,9 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
         if (asked.pressure) append(f.pressure, p);
         if (asked.gap) {
             const std::optional<Level>& lasting = levels[s].lasting;
-            std::vector<double> deflection =
+            Array<double> deflection =
                 interaction == Interaction::none
-                    ? std::vector<double>(p.size(), 0.0)
+                    ? Array<double>(p.size(), 0.0)
                     : deflections(map, indenter,
                                   lasting ? pressures_of(map, repeats, *lasting) : pressures[s],
                                   window);

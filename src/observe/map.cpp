@@ -62,8 +62,13 @@ MapLevel map_level(const MapGrid& grid, const Level& level) {
     std::vector<Entry> entries;
     const LevelPixels& pixels = level.pixels;
     const LevelTractions& t = level.tractions;
+    const auto add = [&](std::int32_t cell, double area, double force) {
+        if (entries.empty() || entries.back().cell != cell) entries.push_back({cell, 0, 0});
+        entries.back().area += area;
+        entries.back().force += force;
+    };
     const auto add_spot = [&](double x, double y, double area, double force) {
-        if (const int cell = grid.cell(x, y); cell >= 0) entries.push_back({cell, area, force});
+        if (const int cell = grid.cell(x, y); cell >= 0) add(cell, area, force);
     };
     const auto add_pixel = [&](double x, double y, double area, double pressure) {
         if (grid.cell(x, y) < 0) return;
@@ -71,8 +76,7 @@ MapLevel map_level(const MapGrid& grid, const Level& level) {
                      force = pressure * pixels.dx * pixels.dy;
         share_out(v, pixels.dy / grid.side, grid.ny, [&](int j, double part_y) {
             share_out(u, pixels.dx / grid.side, grid.nx, [&](int i, double part_x) {
-                entries.push_back(
-                    {j * grid.nx + i, part_x * part_y * area, part_x * part_y * force});
+                add(j * grid.nx + i, part_x * part_y * area, part_x * part_y * force);
             });
         });
     };

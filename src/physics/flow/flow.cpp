@@ -54,14 +54,14 @@ GapMap gap_of(LevelSource& source) {
         const Path& contact = source.contact;
         const PointWindow whole{{0, map.nx - 1}, {0, map.ny - 1}, map.nx};
         const Pressures pressures = pressures_of(source.level.pixels);
-        std::vector<std::int32_t> touches = zeros_on_huge_pages<std::int32_t>(whole.points());
-        for (const auto& [point, load] : pressures) touches[at(point)] = load.touches;
         const auto [none, depths, lasting] = contact.remains(source.level);
+        Array<double> deflection = deflections(
+            map, contact.indenter(), lasting ? pressures_of(lasting->pixels) : pressures, whole);
+        std::vector<char> touches = zeros_on_huge_pages<char>(whole.points());
+        for (const auto& [point, load] : pressures) touches[at(point)] = load.touches;
         const HeightMap lowered = depths.depth.empty() ? HeightMap{} : lowered_map(map, depths);
         source.gap = gaps(lowered.data ? lowered : map, contact.indenter(), source.level.separation,
-                          touches, whole,
-                          deflections(map, contact.indenter(),
-                                      lasting ? pressures_of(lasting->pixels) : pressures, whole));
+                          touches, whole, std::move(deflection));
     }
     return {map.nx, map.ny, map.dx, map.dy, source.gap};
 }
