@@ -14,24 +14,30 @@ constexpr int kRows = 8;  // that a thread takes at a time
 // Real numbers on a plane, and in the same memory their modes exp(i(kx x + ky y)), kx >= 0.
 class Plane {
 public:
-    Plane(int nx, int ny)
-        : stride_(2 * (at(nx) / 2 + 1)),
-          values_(allocate_doubles(stride_ * at(ny), "the stresses on a plane", true)) {}
-    double* row(int j) { return values_.get() + at(j) * stride_; }
+    Plane(int nx, int ny, Array<double>& memory) : stride_(2 * (at(nx) / 2 + 1)), rows_(ny) {
+        memory.resize(stride_ * at(ny));
+        values_ = memory.data();
+    }
+    void clear() {
+        parallel_for(rows_, kRows, 0, [&](int j) { std::fill_n(row(j), stride_, 0.0); });
+    }
+    double* row(int j) { return values_ + at(j) * stride_; }
     Complex* modes(int j) { return reinterpret_cast<Complex*>(row(j)); }
-    double* values() { return values_.get(); }
-    fftw_complex* fftw() { return reinterpret_cast<fftw_complex*>(values_.get()); }
+    double* values() { return values_; }
+    fftw_complex* fftw() { return reinterpret_cast<fftw_complex*>(values_); }
 
 private:
     std::size_t stride_;
-    std::unique_ptr<double[], HeightMap::Free> values_;
+    int rows_;
+    double* values_;
 };
 
 // The pressures, and the six components of the stress in the order of StressTensor.
 class Planes {
 public:
-    Planes(int nx_, int ny_) : nx(nx_), ny(ny_), pressure(nx, ny) {
-        for (int c = 0; c < 6; ++c) components.emplace_back(nx, ny);
+    Planes(int nx_, int ny_, StressMemory& memory) : nx(nx_), ny(ny_), pressure(nx, ny, memory[6]) {
+        pressure.clear();
+        for (const auto c : indices(6)) components.emplace_back(nx, ny, memory[c]);
         const auto lock = fftw_planning();
         forward_.reset(fftw_plan_dft_r2c_2d(ny, nx, pressure.values(), pressure.fftw(),
                                             FFTW_ESTIMATE | FFTW_UNALIGNED));
@@ -281,9 +287,9 @@ LargestStress measure(Planes& planes, Column&& column, Row&& row, const PointGri
 
 LargestStress stress_below(const PointGrid& grid, const LevelPixels& pixels,
                            const StressedBody& body, double depth, const GridWindow& window,
-                           StressPlane* plane) {
+                           StressMemory& memory, StressPlane* plane) {
     if (body.period.finite()) {
-        Planes planes(grid.nx, grid.ny);
+        Planes planes(grid.nx, grid.ny, memory);
         load(planes, pixels, {}, 1 / double(grid.points()));
         solve_periodic(planes, grid, body, depth);
         return measure(
@@ -300,7 +306,8 @@ LargestStress stress_below(const PointGrid& grid, const LevelPixels& pixels,
                        body.period.along_x() ? grid.nx : 0);
     const Axis rows(from.first_row, from.rows, window.first_row, window.rows,
                     body.period.along_y() ? grid.ny : 0);
-    Planes planes(columns.size, rows.size);
+    Planes planes(columns.size, rows.size, memory);
+    for (Plane& component : planes.components) component.clear();
     load(planes, pixels, {columns.from, rows.from, 0, 0}, 1 / (double(planes.nx) * planes.ny));
     fill_kernel(planes, columns, rows, grid, body, depth);
     convolve(planes);

@@ -1,6 +1,7 @@
 // Stresses on a plane below the pressures of boundary elements, by Fourier transforms.
 #pragma once
 
+#include "base/array.hpp"
 #include "contact/level.hpp"
 #include "physics/stress/stress.hpp"
 #include "surface/surface.hpp"
@@ -25,15 +26,19 @@ struct StressPlane {
     std::vector<double> mises, shear, tension;
 };
 
+// The pressures and six components on a plane, for use at one depth after another.
+using StressMemory = std::array<Array<double>, 7>;
+
 // Stresses at `depth` [length] below the points of `window` under the pressures of a level on
 // `grid`. If they repeat in both directions, the pressures are taken as band-limited, each mode has
 // its closed form, and the mean pressure acts on a body that cannot expand sideways. Otherwise
 // Love's and Cerruti's fields of the pixels are added up, in line contact with those of their
-// images. `plane`, if given, is set to all values. Returns the largest ones. Throws
+// images. `plane`, if given, is set to all values. Returns the largest ones. The
+// values in `memory` are of no meaning. Throws
 // Error(no_memory). Results do not depend on the number of threads.
 LargestStress stress_below(const PointGrid& grid, const LevelPixels& pixels,
                            const StressedBody& body, double depth, const GridWindow& window,
-                           StressPlane* plane = nullptr);
+                           StressMemory& memory, StressPlane* plane = nullptr);
 
 // The points at and around the contact where the largest stresses at this depth are sought: those
 // within 2 depths, or the radius of the largest contact, of a pixel under pressure along either

@@ -139,28 +139,29 @@ public:
                                 on.window.columns.size(), on.window.rows.size()};
         for (const double depth : depths_) {
             StressPlane plane;
-            stress_below(on.map, on.pixels, body_, depth, window, &plane);
+            stress_below(on.map, on.pixels, body_, depth, window, memory_, &plane);
             for (const auto k : indices(fields)) append(fields[k], plane.*kMeasures[k].plane);
         }
         return fields;
     }
 
 private:
-    LargestStress largest_at(double depth, const Level& level) const {
+    LargestStress largest_at(double depth, const Level& level) {
         if (std::isnan(level.force)) return {};
         const Period& period = body_.period;
         if (map_)
             return stress_below(*map_, level.pixels, body_, depth,
-                                stressed_window(*map_, level.pixels, period, depth));
+                                stressed_window(*map_, level.pixels, period, depth), memory_);
         const SpotPressures spots =
             pressures_of_spots(level, period, {0, 0, period.x, period.y}, depth);
         return stress_below(spots.grid, spots.pixels, body_, depth,
-                            {0, 0, spots.grid.nx, spots.grid.ny});
+                            {0, 0, spots.grid.nx, spots.grid.ny}, memory_);
     }
 
     const HeightMap* map_;
     std::vector<double> depths_;
     StressedBody body_;
+    StressMemory memory_;
 };
 
 void state_stress_errors(std::span<double> curves, std::span<const double> depths, double step,

@@ -45,10 +45,13 @@ Period both(const PointGrid& grid) { return {grid.Lx(), grid.Ly()}; }
 
 GridWindow whole(const PointGrid& grid) { return {0, 0, grid.nx, grid.ny}; }
 
+// Planes of all sizes in turn: what is left in the memory has no effect.
+StressMemory memory;
+
 LargestStress largest(const PointGrid& grid, const LevelPixels& pixels, const StressedBody& body,
                       double depth) {
     return stress_below(grid, pixels, body, depth,
-                        stressed_window(grid, pixels, body.period, depth));
+                        stressed_window(grid, pixels, body.period, depth), memory);
 }
 
 // Largest of a measure over depths about its maximum, and the depth of it.
@@ -159,7 +162,7 @@ TEST(hertz_line_between_flats) {
     // Sliding: the in-plane shear is mu p0 all over the surface of contact (Johnson, section 7.1).
     const double mu = 0.4;
     StressPlane plane;
-    stress_below(grid, line, {0.5, {mu, 0}, both(grid)}, 0, whole(grid), &plane);
+    stress_below(grid, line, {0.5, {mu, 0}, both(grid)}, 0, whole(grid), memory, &plane);
     for (const int i : indices(grid.nx))
         if (std::abs(grid.x(i)) < 0.8) CHECK(plane.shear[i] > 0.97 * mu);
     CHECK_CLOSE(plane.shear[800], std::sqrt(mu * mu), 0.02);
@@ -181,7 +184,7 @@ TEST(the_period_is_forgotten_as_it_grows) {
         });
         planes.emplace_back();
         stress_below(grid, p, {0.3, sliding, n > 0 ? both(grid) : Period{}}, 0.7,
-                     {points / 2 - 8, points / 2 - 8, 16, 16}, &planes.back());
+                     {points / 2 - 8, points / 2 - 8, 16, 16}, memory, &planes.back());
     }
     const auto apart = [](const StressPlane& a, const StressPlane& b) {
         double most = 0;
@@ -235,7 +238,7 @@ TEST(hertz_line_that_repeats_along_its_axis) {
     };
     const SlidingTraction sliding{0.1, 0.2};
     StressPlane repeated;
-    stress_below(one, pressures(one, spot), {nu, sliding, {kInfinity, L}}, 0.4, whole(one),
+    stress_below(one, pressures(one, spot), {nu, sliding, {kInfinity, L}}, 0.4, whole(one), memory,
                  &repeated);
     std::vector<double> apart;
     for (const int n : {3, 7, 15}) {
@@ -244,7 +247,7 @@ TEST(hertz_line_that_repeats_along_its_axis) {
         strip.y0 = one.y0 - (n - 1) / 2 * L;
         StressPlane plane;
         stress_below(strip, pressures(strip, spot), {nu, sliding, {}}, 0.4,
-                     {0, (n - 1) / 2 * one.ny, one.nx, one.ny}, &plane);
+                     {0, (n - 1) / 2 * one.ny, one.nx, one.ny}, memory, &plane);
         apart.push_back(0);
         for (const std::size_t k : indices(one.points()))
             apart.back() = std::max(apart.back(), std::abs(repeated.mises[k] - plane.mises[k]));
