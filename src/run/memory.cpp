@@ -166,8 +166,9 @@ private:
     }
 
     double between_flats(double contact) const {
-        constexpr double transforms = 28, touching = 150, gap = 80;
-        return points_ * (transforms + each_ + gap) + touching * contact;
+        // Heights, the plane of the transforms, and the gap.
+        constexpr double planes = 28, touching = 165;
+        return points_ * (planes + each_) + touching * contact;
     }
 
     // Of physics, beside each point.
