@@ -117,8 +117,8 @@ install(SCRIPT ${PROJECT_SOURCE_DIR}/modules/install_python.cmake)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/rscConfig.cmake.in
                               ${PROJECT_BINARY_DIR}/rscConfig.cmake
                               INSTALL_DESTINATION ${rsc_package_folder})
-# Since this version nothing was removed from rsc.h, the modules and these targets, so that a program
-# for it or a later one builds with this one, too. To be raised when something is removed.
+# Since this version nothing was removed from rsc.h, the modules and these targets, so that a
+# program for it or a later one builds with this one, too. To be raised when something is removed.
 set(rsc_oldest 0.3)
 set(rsc_version_file ${PROJECT_BINARY_DIR}/rscConfigVersion.cmake)
 write_basic_package_version_file(${rsc_version_file} COMPATIBILITY SameMajorVersion)

@@ -126,7 +126,8 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
     if (!touching.empty()) {
         level.pixels_per_contact = median_by_area(sums);
         const double border = std::accumulate(open.begin(), open.end(), 0.0),
-                     pressed = double(touching.size()), all = double(map.nx) * map.ny;
+                     pressed = double(touching.size());
+        const double all = double(map.nx) * map.ny;
         // Near full contact it is the gaps that have few pixels.
         const double pixels = indenter.period.finite() ? std::min(pressed, all - pressed) : pressed;
         if (pixels > 0) {

@@ -228,7 +228,8 @@ std::string too_large_for_elements(const Case& settings, const Spectrum& spectru
     // precision.
     const bool periodic = settings.indentation.boundary == Boundary::periodic;
     const double elastic = reads_high_points(settings) ? 3.0 : 8.0,
-                 bytes = (periodic ? 28.0 : elastic) * n * n, memory = machine_memory();
+                 bytes = (periodic ? 28.0 : elastic) * n * n;
+    const double memory = machine_memory();
     constexpr double beside = 1.5;  // first the modes during synthesis, later the pixels in contact
     if (beside * bytes <= memory) return {};
     return format(

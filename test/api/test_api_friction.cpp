@@ -25,7 +25,9 @@ TEST(elements_along_a_path) {
     constexpr int steps = 50;
     for (int step = 1; step <= 2 * steps; ++step) {
         const double x = 0.7 * full * std::min(step, steps) / steps,
-                     y = 0.5 * full * std::max(step - steps, 0) / steps, qx = Qx, qy = Qy;
+                     y = 0.5 * full * std::max(step - steps, 0) / steps;
+        const double qx = Qx;
+        const double qy = Qy;
         OK(rsc_friction_update(friction, 0, 5 + x, 7 + y, nullptr, &Qx, &Qy, nullptr));
         work += (step <= steps ? 0.35 * (qx + Qx) : 0.25 * (qy + Qy)) * full / steps;
         CHECK(std::hypot(Qx, Qy) < most);

@@ -100,7 +100,10 @@ TEST(says_what_it_did) {
     const Asperities a = random_asperities(300, 0.02, 0.01, 5e-4, 0.5, 300);
     const Indenter indenter{1.0, 2.5, 0.5, 0.5};
     SolverOptions options{
-        .method = Method::dgesv, .tolerance = kResidual, .surface = {.sigma = 0.01}};
+        .method = Method::dgesv,
+        .tolerance = kResidual,
+        .surface = {.sigma = 0.01},
+    };
     const Level paper = asperity_path(a, indenter, options).at_separation(0.0);
     CHECK(paper.method == Method::dgesv && paper.fallback == Fallback::none);
     CHECK(paper.iterations <= kMostSolves && paper.products == paper.iterations);
@@ -136,7 +139,10 @@ TEST(regularisation_leaves_no_trace) {
     const Asperities a = random_asperities(300, 0.012, 0.01, 5e-4, 0.5, 3);
     const auto force = [&](double delta0, double cut, double tolerance) {
         SolverOptions options{
-            .method = Method::dgesv, .tolerance = tolerance, .surface = {.sigma = 0.01}};
+            .method = Method::dgesv,
+            .tolerance = tolerance,
+            .surface = {.sigma = 0.01},
+        };
         options.delta0 = delta0;
         options.delta_cut = cut;
         return asperity_path(a, {1.0, 2.5, 0.5, 0.5}, options).at_separation(0.005).force;

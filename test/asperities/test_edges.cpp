@@ -47,7 +47,8 @@ double residual(const Asperities& a, const Indenter& indenter, double Z0, const 
     long double error2 = 0, force2 = 0;
     for (const auto i : indices(a)) {
         const long double dx = a.x[i] - indenter.x0, dy = a.y[i] - indenter.y0,
-                          rho2 = dx * dx + dy * dy, R = indenter.shape->hertz_radius();
+                          rho2 = dx * dx + dy * dy;
+        const long double R = indenter.shape->hertz_radius();
         if (!std::isinf(indenter.shape->hertz_radius()) && rho2 > R * R) continue;
         long double g =
             a.z[i] - static_cast<long double>(Z0) -

@@ -61,7 +61,8 @@ TEST(test_fields) {
         CHECK_RELATIVE(deflection(level, *free, x, y), alone, 1e-14);
         const double xn = std::remainder(x - 0.3, 2.0), yn = std::remainder(y - 0.9, 1.0),
                      xm = std::remainder(x - 1.9, 2.0), ym = std::remainder(y - 0.05, 1.0),
-                     near = std::hypot(xn, yn), beside = std::hypot(xm, ym);
+                     near = std::hypot(xn, yn);
+        const double beside = std::hypot(xm, ym);
         const double images = 2.0 * (near > 0 ? lattice.at(xn, yn) - 1 / near : lattice.self()) +
                               (lattice.at(xm, ym) - 1 / beside);
         CHECK_RELATIVE(deflection(level, *kernel, x, y),

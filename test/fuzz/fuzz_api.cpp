@@ -235,7 +235,9 @@ private:
         const auto n = in_.ConsumeIntegralInRange<std::size_t>(0, 12);
         const bool curved = in_.ConsumeBool(), flattened = in_.ConsumeBool();
         const auto x = numbers(n), y = numbers(n), z = numbers(n), r = numbers(n, true),
-                   k2 = numbers(n, true), angle = numbers(n), b = numbers(n);
+                   k2 = numbers(n, true);
+        const auto angle = numbers(n);
+        const auto b = numbers(n);
         std::vector<double> k1 = k2;
         for (double& k : k1) k *= 1 + std::abs(number());
         hold(asperities_, [&](rsc_asperities** a) {

@@ -55,10 +55,8 @@ TEST(random_points) {
     std::normal_distribution<double> normal;
     long met = 0;
     for (const int set : indices(240)) {
-        const double flat = set % 3 == 0   ? 1
-                            : set % 3 == 1 ? 0.01
-                                           : 0,
-                     spread = set % 5, side = set % 2 == 0 ? 1 : 1e-3;
+        const double flat = set % 3 == 0 ? 1 : set % 3 == 1 ? 0.01 : 0, spread = set % 5;
+        const double side = set % 2 == 0 ? 1 : 1e-3;
         Vector x, y, reach;
         for (const int i : indices(2 + set)) {
             x.push_back(5 + side * uniform(random));

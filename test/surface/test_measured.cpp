@@ -146,7 +146,13 @@ TEST(forms) {
 // Stretched back by its lay, a spectrum has the cutoffs that it was made with.
 TEST(lay) {
     const Spectrum spectrum{
-        .L = 1, .L_lambda_l = 8, .L_lambda_s = 40, .sigma = 0.01, .aspect = 3, .direction = 30};
+        .L = 1,
+        .L_lambda_l = 8,
+        .L_lambda_s = 40,
+        .sigma = 0.01,
+        .aspect = 3,
+        .direction = 30,
+    };
     HeightMap map = synthesize(spectrum, 256, Normalise::sample, 5, 1);
     const Measured m = measure(map, {});
     CHECK(m.fit && m.fit->aspect > 2);

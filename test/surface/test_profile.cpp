@@ -166,7 +166,13 @@ TEST(moments_of_profile_and_surface) {
 // The profiles of 20 synthesized surfaces: how many of the stated 90 % intervals hold the truth.
 TEST(way_back_from_profiles_of_surfaces) {
     const Spectrum truth{
-        .L = 4, .hurst = 0.8, .L_lambda_l = 32, .L_lambda_s = 400, .plateau = true, .sigma = 0.002};
+        .L = 4,
+        .hurst = 0.8,
+        .L_lambda_l = 32,
+        .L_lambda_s = 400,
+        .plateau = true,
+        .sigma = 0.002,
+    };
     const Moments m = theoretical_moments(truth);
     const double lambda_s = truth.L / truth.L_lambda_s;
     constexpr int surfaces = 20, n = 1600;

@@ -9,8 +9,8 @@
 namespace rsc {
 namespace {
 
-// Smallest cohesive resolution. Error of N over the force of the traction s0 on a strip of one pixel
-// along the edge of what attracts: edges are resolved to a pixel only, and errors of separate
+// Smallest cohesive resolution. Error of N over the force of the traction s0 on a strip of one
+// pixel along the edge of what attracts: edges are resolved to a pixel only, and errors of separate
 // contacts cancel on average (smooth spheres: 0.25 to 1.05 for Maugis's lambda from 0.3 to 4).
 // Error of A: of w on the area, times the inverse of the resolution, and of edges, times h over the
 // radius. Found by hand; test_adhesive_elements checks that 90 % are within.
@@ -79,7 +79,8 @@ GridError adhesion_grid_error(const Level& level, const HeightMap& map, const In
     const auto& [work, range] = bodies.of<Adhesion>();
     if (!(range > 0)) return error_without_range(level, indenter, map.step(), few, work);
     const double traction = work / range, attracting = level.area + level.cohesive_area,
-                 pulled = traction * attracting, contacts = std::max(level.contacts, 1);
+                 pulled = traction * attracting;
+    const int contacts = std::max(level.contacts, 1);
     // Of n equal contacts the edges are longer by sqrt(n), and their errors cancel as much.
     double dN = kEdgeError * traction * map.step() * 2 * std::sqrt(std::numbers::pi * attracting);
     double area = kNotComputed;

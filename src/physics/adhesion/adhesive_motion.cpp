@@ -30,7 +30,8 @@ void AdhesivePath::set_gaps(double Z) {
 void AdhesivePath::find_members_of_motion(std::vector<int>& fresh) {
     for (int i = 0; i < int(asperities.size()); ++i) {
         const double first = clearance_at(i, 0), middle = clearance_at(i, 0.5),
-                     last = clearance_at(i, 1), bend = 2 * std::abs(middle - 0.5 * (first + last));
+                     last = clearance_at(i, 1);
+        const double bend = 2 * std::abs(middle - 0.5 * (first + last));
         if (std::max({first, middle, last}) + (std::isfinite(bend) ? bend : 0.0) <=
             motion->Z0 - margin)
             continue;

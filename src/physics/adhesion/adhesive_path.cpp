@@ -264,7 +264,8 @@ AdhesivePath::Point AdhesivePath::predicted(double Z, bool jump) const {
         const int position = here.active[k], i = at_place(position);
         const double bend = trend.bend.empty() ? 0.0 : trend.bend[at(position)],
                      change = length * (here.du[at(position)] + 0.5 * length * bend),
-                     u = here.states[k].u + change, slope = here.states[k].du;
+                     u = here.states[k].u + change;
+        const double slope = here.states[k].du;
         const bool attached = u > sticking.lets_go(i);
         if (!attached && (jump || small(position))) continue;
         double s = std::max(here.s[k] + change / slope, 0.5 * (here.s[k] + sticking.least(i)));

@@ -59,7 +59,8 @@ void minres(Multiply&& multiply, Vector v, double goal, Vector& x, Vector& lifte
         for (const auto i : indices(n)) next[i] -= alpha * v[i] + beta * before[i];
         const double beta_next = std::sqrt(dot4(next, next));
         const double d = c * alpha - c_before * s * beta, r1 = std::hypot(d, beta_next),
-                     r2 = s * alpha + c_before * c * beta, r3 = s_before * beta;
+                     r2 = s * alpha + c_before * c * beta;
+        const double r3 = s_before * beta;
         if (!(r1 > 0)) break;
         c_before = c;
         s_before = s;

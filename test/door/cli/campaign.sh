@@ -238,7 +238,8 @@ test_merge() {
         says "$word"
         [ ! -e new.nc ] || fail "a refusal has written"
     }
-    refused "asperities%law: 'fourth_order' in 'a/out.nc', 'elliptic' in 'law/out.nc'" a/out.nc law/out.nc
+    refused "asperities%law: 'fourth_order' in 'a/out.nc', 'elliptic' in 'law/out.nc'" \
+        a/out.nc law/out.nc
     refused "one/out.nc.*single" a/out.nc one/out.nc
     refused "rsc_manifest.nc.*manifest" a/out.nc study/out/rsc_manifest.nc
     refused "text.nc.*no result of rsc" a/out.nc text.nc

@@ -205,7 +205,8 @@ contains
     call check(stat == -4 .and. index(errmsg, 'y (number 4') > 0 .and. &
                index(errmsg, '(3), not (4)') > 0, 'size of y: ' // trim(errmsg))
     call rsc_press_all(c, [1d0, 2d0], w(:1), stat=stat, errmsg=errmsg)
-    call check(stat == -4 .and. index(errmsg, '(1), not (2)') > 0, 'size of a list: ' // trim(errmsg))
+    call check(stat == -4 .and. index(errmsg, '(1), not (2)') > 0, &
+               'size of a list: ' // trim(errmsg))
     call map%take(reshape([(w, stat = 1, 5)], [5, 4]), 0.1d0)
     call map%heights(z, stat, errmsg)
     call check(stat == -3 .and. index(errmsg, '(3,4), not (5,4)') > 0, 'shape: ' // trim(errmsg))

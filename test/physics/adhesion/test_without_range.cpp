@@ -198,7 +198,8 @@ TEST(test_force) {
 TEST(test_thin_layer) {
     constexpr double E = 1, nu = 0.3, thickness = 0.01, a = 8 * thickness, depth = a * a / 2,
                      springs = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)) / thickness,
-                     w = springs * depth * depth / 2, h = thickness / 2.5;
+                     w = springs * depth * depth / 2;
+    constexpr double h = thickness / 2.5;
     const HeightMap map = height_map(72, 72, h, h, [](int i, int j) {
         return -0.5 * h * h * (std::pow(i - 35.4, 2) + std::pow(j - 35.57, 2));
     });

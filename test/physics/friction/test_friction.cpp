@@ -210,7 +210,8 @@ TEST(random_histories) {
     Spheres curve = several();
     constexpr double low = -0.001, high = 0.008;
     const double c = kFriction.slide_per_approach(),
-                 most = kFriction.coefficient * curve.load(high).force, far = c * (high - low);
+                 most = kFriction.coefficient * curve.load(high).force;
+    const double far = c * (high - low);
     for (unsigned seed = 0; seed < 100; ++seed) {
         std::mt19937_64 random(seed);
         Springs springs(curve, low, high, 3000);
@@ -249,7 +250,8 @@ TEST(two_directions) {
     Spheres curve = several();
     constexpr double low = -0.001, high = 0.008;
     const double c = kFriction.slide_per_approach(),
-                 most = kFriction.coefficient * curve.load(high).force, far = c * (high - low);
+                 most = kFriction.coefficient * curve.load(high).force;
+    const double far = c * (high - low);
     double worst = 0;
     for (unsigned seed = 0; seed < 20; ++seed) {
         const double turn = seed < 10 ? 0.004 : 0.2;  // at each step of 2 % of full slip, at most

@@ -46,7 +46,8 @@ TEST(sphere_of_cattaneo_mindlin_and_deresiewicz) {
                        "&output fields = 'pressure', 'traction', 'traction_x', 'traction_y', "
                        "'slip_x' /\n");
         const double R = 10, mu = 0.3, G = 100e3 / (1 + nu), Gs = G / (2 * (2 - nu)),
-                     E = 200e3 / 2 / (1 - nu * nu), allowed = nu > 0 ? 5e-3 : 2e-3;
+                     E = 200e3 / 2 / (1 - nu * nu);
+        const double allowed = nu > 0 ? 5e-3 : 2e-3;
         const auto xi = file.values("tangential_displacement"), Q = file.values("tangential_force"),
                    stiffness = file.values("tangential_stiffness"),
                    work = file.values("cycle_work"), slips = file.values("full_slip"),
@@ -332,7 +333,8 @@ TEST(kernels_of_cerruti) {
         for (int i = 0; i < n; ++i)
             for (int j = 0; j < n; ++j) {
                 const double X = x + a - 2 * a * (i + 0.5) / n, Y = y + b - 2 * b * (j + 0.5) / n,
-                             r = std::hypot(X, Y), part = 4 * a * b / n / n / (r * r * r);
+                             r = std::hypot(X, Y);
+                const double part = 4 * a * b / n / n / (r * r * r);
                 xx += X * X * part;
                 xy += X * Y * part;
             }

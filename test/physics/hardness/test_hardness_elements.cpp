@@ -23,7 +23,10 @@ const Indenter kTip{kE, 2.5, 0.47, 0.52};
 
 SolverOptions options(double H0, double tolerance = 1e-10) {
     return {
-        .tolerance = tolerance, .max_iterations = 400, .physics = bodies_with(Hardness{.H0 = H0})};
+        .tolerance = tolerance,
+        .max_iterations = 400,
+        .physics = bodies_with(Hardness{.H0 = H0}),
+    };
 }
 
 HeightMap rough(int n, double L_lambda_s, std::int64_t seed) {

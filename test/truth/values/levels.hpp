@@ -128,7 +128,8 @@ inline CellSums cells_of(const Contacts2& c, const Cells& cells) {
     const auto spread = [&](double x, double y, double area, double force) {
         if (cells.cell(x, y) < 0) return;
         const double u = (x - cells.x0) / cells.side, v = (y - cells.y0) / cells.side,
-                     w = c.dx / cells.side, h = c.dy / cells.side;
+                     w = c.dx / cells.side;
+        const double h = c.dy / cells.side;
         for (const long j : indices(cells.ny))
             for (const long i : indices(cells.nx)) {
                 const double part = share(u, w, i, cells.nx) * share(v, h, j, cells.ny);
@@ -398,7 +399,8 @@ inline void levels(CheckedFile& f, const Truth& t) {
                     return;
                 }
                 const double slope = t.slope_over_offset(dx * dx + dy * dy), dz = -t.top(px, py),
-                             fx = -force * dx * slope, fy = -force * dy * slope;
+                             fx = -force * dx * slope;
+                const double fy = -force * dy * slope;
                 x += moment ? dy * force - dz * fy : fx;
                 y += moment ? dz * fx - dx * force : fy;
             };

@@ -146,8 +146,8 @@ inline void heights(CheckedFile& f, const Truth& t) {
     f.same("height", g.z);
 }
 
-// First loading up to full slip and a cycle at each level (THEORY.rst, section Friction); the curves
-// themselves: test_friction.
+// First loading up to full slip and a cycle at each level (THEORY.rst, section Friction); the
+// curves themselves: test_friction.
 inline void friction(CheckedFile& f, const Truth& t) {
     if (!(t.c.solids.friction > 0)) return CHECK(!f.has("tangential_force") && !f.has("point"));
     constexpr std::size_t first = 21, points = 62;
@@ -244,7 +244,8 @@ inline void measured(CheckedFile& f, const Truth& t, const HeightMap* as_read) {
             for (long j = 0; j + 1 < g.ny; ++j)
                 for (long i = 0; i + 1 < g.nx; ++i) {
                     const double a = g.at_point(i, j), b = g.at_point(i + 1, j),
-                                 d = g.at_point(i, j + 1), e = g.at_point(i + 1, j + 1);
+                                 d = g.at_point(i, j + 1);
+                    const double e = g.at_point(i + 1, j + 1);
                     const double zx = (b + e - a - d) / (2 * g.dx),
                                  zy = (d + e - a - b) / (2 * g.dy);
                     xx += zx * zx;

@@ -132,7 +132,8 @@ struct Grid {
 inline Moments4 closed_forms(const Case& c) {
     const auto& s = c.surface;
     const double L = s.L.value_or(1.0), kl = 2 * pi * s.L_lambda_l / L,
-                 zeta = s.L_lambda_s / s.L_lambda_l, xi = 1 / s.L_lambda_l;
+                 zeta = s.L_lambda_s / s.L_lambda_l;
+    const double xi = 1 / s.L_lambda_l;
     const auto form = [&](double p, double T) {
         const double e = p - 2 * s.hurst,
                      flat = s.plateau ? (1 - std::pow(xi, p + 2)) / (p + 2) : 0;
