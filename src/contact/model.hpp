@@ -73,7 +73,9 @@ public:
     // `trial` of force control may be another one, if there are several: Level::provisional is
     // then set.
     virtual Level solve(double z, bool trial = false) = 0;
-    // Solves for the force N directly, if the model can.
+    // Models that solve under a force themselves: elements with the sum of their pressures as a
+    // constraint, and adhesive asperities, whose path ends at the force. Absent: the Path searches
+    // for it (contact/force_search.hpp).
     virtual std::optional<Level> solve_under(double N) {
         (void)N;
         return std::nullopt;

@@ -1,6 +1,7 @@
 #include "contact/path.hpp"
 
 #include "base/error.hpp"
+#include "contact/force_search.hpp"
 
 namespace rsc {
 namespace {
@@ -11,14 +12,6 @@ constexpr double kFarAbove = 100;   // relative to the requested force
 constexpr double kReleased = 1e-3;  // resolution of pulling off, relative to the range
 // Steps of the approach to a force: the most by which one is longer than the last.
 constexpr double kGrowth = 4;
-constexpr int kTrials = 2;  // number of failures after which no trials are used
-
-// Evaluation of a level at z: it is the solution (or failed), or lies above it; `next` is the next
-// separation by Newton's method, -Infinity: none.
-struct Verdict {
-    bool found, above;
-    double next;
-};
 
 // Of all solutions on the way to a level.
 struct Effort {
@@ -48,8 +41,7 @@ struct Approach {
     double N;
     bool down;
     double range, lowest;  // no separation is below
-    double step = 0.25 * range, z = 0, force = 0, beyond = kNotComputed, guess = kNotComputed;
-    bool free = false, released = false;  // nothing attracts at z, or beyond
+    double step = 0.25 * range, guess = kNotComputed;
     int guesses = 0;
     std::vector<std::array<double, 2>> last = {};  // separations and forces, at most three
 
@@ -57,39 +49,19 @@ struct Approach {
     bool nearer(const Level& level) const {
         return (down || !is_free(level)) && (level.force < N) == down;
     }
-    // Absent: there is none left.
-    std::optional<double> next() {
-        if (!down && free) return std::nullopt;
-        if (std::isnan(beyond)) {
-            const double length = down ? z - guess : guess - z;
-            step = length > 0 ? std::min(length, kGrowth * step) : 1.4 * step;
-            return down ? std::max(z - step, lowest) : z + step;
-        }
-        const double width = beyond - z, share = (guess - z) / width;
-        if (released && std::abs(width) < kReleased * range) return std::nullopt;
-        const bool inside = !released && ++guesses % 4 != 0 && share > 0 && share < 1;
-        const double middle = z + (inside ? share : 0.5) * width;
-        if (middle == z || middle == beyond) return std::nullopt;
-        return middle;
+    double next(const Bracket& bracket, bool released) {
+        const double z = down ? bracket.high : bracket.low;
+        if (std::isfinite(down ? bracket.low : bracket.high))
+            return !released && ++guesses % 4 != 0 ? guess : kNotComputed;
+        const double length = down ? z - guess : guess - z;
+        step = length > 0 ? std::min(length, kGrowth * step) : 1.4 * step;
+        return down ? std::max(z - step, lowest) : z + step;
     }
+    // Extrapolates the separation with the force N as a polynomial of the force.
     void note(const Level& level) {
         last.push_back({level.separation, level.force});
+        if (last.size() == 1) return;
         if (last.size() > 3) last.erase(last.begin());
-        interpolate();
-        if (last.size() == 1 || nearer(level)) {
-            z = level.separation;
-            force = level.force;
-            free = is_free(level);
-        } else {
-            beyond = level.separation;
-            released = !down && is_free(level);
-        }
-    }
-
-private:
-    // The separation with the force N as a polynomial of the force.
-    void interpolate() {
-        if (last.size() < 2) return;
         guess = 0;
         for (const auto i : indices(last)) {
             double share = 1;
@@ -100,61 +72,30 @@ private:
     }
 };
 
-// Bracketed Newton's method with the slopes of levels; a root finder without slopes takes about
-// twice as many levels. Trials come first, the last of which is solved again completely; if that
-// has another result kTrials times, only complete solutions are used. `judge` evaluates a level.
-// While no lower bound is known, reach(next, z, high, i) limits the next separation. `stuck`: no
-// separation is left between the bounds.
-template <class Judge, class Reach>
-Level search(Model& model, double begin, double below, double above, int most, Judge&& judge,
-             Reach&& reach, bool& stuck) {
-    Level level;
+// The search for `level`, which judge() evaluates: with trials, until the last of them has another
+// result when it is solved completely.
+template <class Judge>
+SearchEnd search(Model& model, Level& level, double begin, Bracket bracket, int most,
+                 Judge&& judge) {
     Effort effort;
-    double z = begin, low = below, high = above;
-    int trials = kTrials, i = 0;
-    const auto solve = [&](bool trial) {
-        level = model.solve(z, trial);
-        effort.add(level);
-        return judge(level, z);
-    };
-    const auto begin_without_trials = [&] {
-        trials = 0;
-        i = -1;
-        z = begin;
-        low = below;
-        high = above;
-    };
-    stuck = false;
-    for (;; ++i) {
-        Verdict verdict = solve(trials > 0);
-        if (verdict.found && level.provisional) {
-            verdict = solve(false);
-            if (!verdict.found) {  // there is another solution; continues from it
-                if (--trials == 0) {
-                    begin_without_trials();
-                    continue;
-                }
-                low = below;
-                high = above;
-            }
-        }
-        if (verdict.found) break;
-        (verdict.above ? high : low) = z;
-        double next = verdict.next;
-        if (std::isinf(low)) next = reach(next, z, high, i);
-        if (!(next < high) || !(next > low)) next = 0.5 * (low + high);
-        if (i + 1 >= most || next == z || !(next > low) || !(next < high)) {
-            if (trials > 0) {
-                begin_without_trials();
-                continue;
-            }
-            stuck = i + 1 < most;
-            if (!stuck) level.converged = false;
-            break;
-        }
-        z = next;
+    SearchEnd end = SearchEnd::stuck;
+    for (bool trial : {true, false}) {
+        const auto evaluate = [&](double z, Bracket& now, int i) {
+            const auto solve = [&] {
+                level = model.solve(z, trial);
+                effort.add(level);
+                return judge(z, now, i);
+            };
+            const double next = solve();
+            if (!now.closed() || !level.provisional) return next;
+            now = bracket;
+            trial = false;
+            return solve();
+        };
+        end = search_force(begin, bracket, most, evaluate);
+        if (end == SearchEnd::closed) break;
     }
-    return level;
+    return end;
 }
 
 }  // namespace
@@ -180,8 +121,9 @@ Level Path::in_steps(double from, double to, Reach reach) {
         effort.add(level);
         return level;
     };
+    const bool steps = stepper() && std::isfinite(from) && end > start;
     std::optional<State> before;
-    if (stepper() && std::isfinite(from) && end > start) before = history_state();
+    if (steps || (pulls() && reach == &Path::to_force)) before = history_state();
     level_.reset();
     solved_ = true;
     Level level;
@@ -191,16 +133,16 @@ Level Path::in_steps(double from, double to, Reach reach) {
         time_ = end;
     };
     try {
-        level = before ? stepper()->follow({end - start, reach == &Path::to_force, force_, solve,
-                                            [&] { restore_history(*before); },
-                                            [&] { return first_touch(); }})
-                       : solve(1, 0, 0);
+        level = steps ? stepper()->follow({end - start, reach == &Path::to_force, force_, solve,
+                                           [&] { restore_history(*before); },
+                                           [&] { return first_touch(); }})
+                      : solve(1, 0, 0);
     } catch (...) {
         take_back();
         throw;
     }
     ++levels_since_move_;
-    if (!level.converged) take_back();
+    if (!level.converged && level.fallback != Fallback::held) take_back();
     if (relaxes()) level.time = end;
     if (clock() == PathClock::distance) level.distance = end;
     level_ = level;
@@ -390,27 +332,27 @@ Level Path::solve_between_planes(double Z0) {
         begin = last_->z + (Z0 - last_->z - c * last_->force) / (1 + c * last_->slope);
         if (!(begin < Z0) || !(1 + c * last_->slope > 0)) begin = Z0;
     }
+    Level level;
     double miss = 0;
-    const auto judge = [&](const Level& level, double z) {
+    const auto judge = [&](double z, Bracket& bracket, int) {
         const double slope = model_->stiffness(Slope::rough), steep = 1 + c * slope;
         miss = z + c * level.force - Z0;
         last_ = {z, level.force, slope};
         // An error of Z0 corresponds to an error of the force of -slope/steep times as much.
         const double rounding =
             4 * std::numeric_limits<double>::epsilon() * (std::abs(Z0) + std::abs(z));
-        const bool found =
-            !level.converged || std::abs(miss) <= rounding ||
-            (steep > 0 && std::abs(miss * slope) <= 0.1 * tolerance_ * level.force * steep);
-        return Verdict{found, miss > 0, steep > 0 ? z - miss / steep : -kInfinity};
-    };
-    const auto reach = [&](double next, double z, double above, int) {
-        return std::isfinite(next) && next < above ? next : z - 2 * (std::abs(miss) + (Z0 - z));
+        if (!level.converged || std::abs(miss) <= rounding ||
+            (steep > 0 && std::abs(miss * slope) <= 0.1 * tolerance_ * level.force * steep))
+            return bracket.close(z);
+        (miss > 0 ? bracket.high : bracket.low) = z;
+        const double next = steep > 0 ? z - miss / steep : kInfinity;
+        if (std::isfinite(bracket.low) || next < z) return next;
+        return z - 2 * (miss + (Z0 - z));
     };
     constexpr int most = 60;
-    bool stuck;
-    Level level = search(*model_, begin, -kInfinity, Z0, most, judge, reach, stuck);
-    if (stuck) level.converged = false;
-    // Without a solution the search goes on to forces without bounds: a level far from Z0 is no
+    if (search(*model_, level, begin, {-kInfinity, touch}, most, judge) != SearchEnd::closed)
+        level.converged = false;
+    // Without a solution the search goes on to forces without bracket: a level far from Z0 is no
     // state of it.
     if (!level.converged) level.residual = std::max(level.residual, std::abs(miss) / (touch - Z0));
     level.separation = Z0;
@@ -466,43 +408,42 @@ Level Path::to_force(double N) {
         bad_input(
             "no point of the surface lies under body 2, so that it cannot carry a force: it is "
             "narrower than a step of the grid, or lies beyond the border");
+    Level level = pulls() ? follow_to_force(N) : level_under(N);
+    finish(level);
+    return level;
+}
+
+Level Path::level_under(double N) {
     std::optional<Level> level = model_->solve_under(N);
-    if (level)
-        level->separation += model_->shift() * level->force;
-    else
-        level = pulls() ? follow_to_force(N) : search_force(N);
-    finish(*level);
+    if (!level) return pulls() ? approach_force(N) : newton_force(N);
+    level->separation += model_->shift() * level->force;
     return std::move(*level);
 }
 
-// Solves ln N(z) = ln N with the slope from the stiffness.
-Level Path::search_force(double N) {
+// Solves ln N(z) = ln N with the slope from the stiffness; a root finder without slopes takes about
+// twice as many levels.
+Level Path::newton_force(double N) {
     const double above = first_touch();  // upper bound of the separation
-    // Initial depth: the force cannot be reached before half of it.
-    double depth = std::numeric_limits<double>::epsilon() *
-                   std::max(std::abs(above), std::numeric_limits<double>::min());
-    if (last_force_ > 0.5 * N && last_force_ < 2 * N && last_separation() < above)
-        depth = above - last_separation();
-    else
-        while (model_->force_at_most(depth) < N) depth *= 2;
-    const auto judge = [&](const Level& level, double z) {
-        const double miss = level.force / N - 1;
-        const bool found = std::abs(miss) <= tolerance_ || !level.converged;
-        if (found) return Verdict{true, false, z};
-        if (!(level.force > 0)) return Verdict{false, true, -kInfinity};
+    const bool near = last_force_ > 0.5 * N && last_force_ < 2 * N && last_separation() < above;
+    const double depth = near ? above - last_separation() : least_depth(*model_, N);
+    Level level;
+    const auto judge = [&](double z, Bracket& bracket, int i) {
+        const double miss = level.force / N - 1, furthest = z - std::ldexp(depth, i);
+        if (std::abs(miss) <= tolerance_ || !level.converged) return bracket.close(z);
+        (miss < 0 ? bracket.high : bracket.low) = z;
+        const bool open = std::isinf(bracket.low);
+        if (!(level.force > 0)) return open ? furthest : -kInfinity;
         rise_ = model_->stiffness(Slope::rough) / level.force;
-        return Verdict{false, miss < 0, z - std::log1p(miss) / rise_};
-    };
-    const auto reach = [&](double next, double z, double highest, int i) {
-        const double furthest =
-            highest - 2 * (levels_since_move_ > 1 ? highest - z : 0.0) - std::ldexp(depth, i);
-        return std::isfinite(next) && next < highest ? std::max(next, furthest) : furthest;
+        const double next = z - std::log1p(miss) / rise_;
+        if (!open) return next;
+        return next < z ? std::max(next, furthest) : furthest;
     };
     constexpr int most = 200;
-    bool stuck;
-    Level level = search(*model_, first_guess(N, above, depth),
-                         model_->contact_range().full_contact, above, most, judge, reach, stuck);
-    if (stuck) require_resolved(level, N);
+    const Bracket bracket{model_->contact_range().full_contact, above};
+    const SearchEnd end =
+        search(*model_, level, first_guess(N, above, depth), bracket, most, judge);
+    if (end == SearchEnd::most) level.converged = false;
+    if (end == SearchEnd::stuck) require_resolved(level, N);
     if (const double c = model_->shift(); c > 0) {
         last_ = {level.separation, level.force, model_->stiffness(Slope::rough)};
         level.separation += c * level.force;
@@ -517,22 +458,14 @@ Level Path::follow_to_force(double N) {
     // Where the smallest force is reached, less than this share from it.
     constexpr double near_least = 1e-7;
     const State before = history_state();
-    const auto take_back = [&] { restore_history(before); };
-    try {
-        Level level = approach_force(N);
-        if (level.fallback == Fallback::held &&
-            level.force > (1 - near_least) * level.least_force) {
-            take_back();
-            level = approach_force((1 - near_least) * level.least_force);
-            level.fallback = Fallback::held;
-            level.converged = false;
-        }
-        if (!level.converged && level.fallback != Fallback::held) take_back();
+    Level level = level_under(N);
+    if (level.fallback != Fallback::held || level.force <= (1 - near_least) * level.least_force)
         return level;
-    } catch (...) {
-        take_back();
-        throw;
-    }
+    restore_history(before);
+    level = level_under((1 - near_least) * level.least_force);
+    level.fallback = Fallback::held;
+    level.converged = false;
+    return level;
 }
 
 // Accepts the levels on the way but the last one, if the model has followed its path to them.
@@ -566,7 +499,7 @@ Level Path::approach_force(double N) {
     Approach way{N, level.force < N, range, model_->contact_range().full_contact + 1e-6 * range};
     way.note(level);
     if (const double slope = model_->stiffness(Slope::rough); slope < 0)
-        way.guess = way.z + (N - way.force) / slope;
+        way.guess = level.separation + (N - level.force) / slope;
     State least;
     const auto compare = [&] {
         if (std::isfinite(least.force) && level.force >= least.force) return;
@@ -575,20 +508,34 @@ Level Path::approach_force(double N) {
         least.history = history()->write();
     };
     compare();
-    while (const std::optional<double> z = way.next()) {
-        level = solve(*z, true);
+    bool released = false;
+    const auto evaluate = [&](double z, Bracket& bracket, int) {
+        level = solve(z, true);
         const bool nearer = way.nearer(level);
-        if (level.provisional && ends(level)) level = solve(*z, false);
-        if (ends(level)) return level;
-        if (nearer && *z == way.lowest) refuse_closing(N, level);
+        if (level.provisional && ends(level)) level = solve(z, false);
+        if (ends(level)) return bracket.close(z);
+        if (nearer && z == way.lowest) refuse_closing(N, level);
         way.note(level);
         least_on_path = level.least_force;
-        if (!nearer) continue;
-        if (!level.provisional) {
-            history()->accept(level);
-            jumps = level.jumps;
+        (nearer == way.down ? bracket.high : bracket.low) = z;
+        if (!nearer) {
+            released = !way.down && Approach::is_free(level);
+        } else {
+            if (!level.provisional) {
+                history()->accept(level);
+                jumps = level.jumps;
+            }
+            compare();
         }
-        compare();
+        if (released && bracket.high - bracket.low < kReleased * range) return bracket.close(z);
+        return way.next(bracket, released);
+    };
+    if (way.down || !Approach::is_free(level)) {
+        const double z = level.separation;
+        const Bracket bracket{way.down ? -kInfinity : z, way.down ? z : kInfinity};
+        constexpr int most = std::numeric_limits<int>::max();
+        (void)search_force(way.next(bracket, false), bracket, most, evaluate);
+        if (ends(level)) return level;
     }
     history()->read(least.history);
     level = solve(least.separation, false);

@@ -111,7 +111,8 @@ private:
     Level in_steps(double from, double to, Reach reach);
     Level to_separation(double Z0);  // as at_separation and at_force, in one step
     Level to_force(double N);
-    Level search_force(double N);
+    Level level_under(double N);
+    Level newton_force(double N);
     Level follow_to_force(double N);
     Level approach_force(double N);
     // Solves at the separation Z0 of the mean planes if shift() > 0.

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "contact/force_search.hpp"
 #include "elements/elements.hpp"
 #include "elements/pixel_model.hpp"
 #include "elements/pixel_spots.hpp"
@@ -366,29 +367,25 @@ void ElementModel::solve_more(double tolerance, int iterations, std::optional<do
 // Rough solutions at separations until one has a force near N; false if none has.
 bool ElementModel::solve_roughly(double N, double& power, ElementsOutcome& all) {
     constexpr double rough = 0.1, most_above = 2, most_below = 3, widest = 3, steep = 4;
-    constexpr int rounds = 5, searches = 20;
-    double depth = std::numeric_limits<double>::epsilon() *
-                   std::max(std::abs(top_), std::numeric_limits<double>::min());
-    while (force_at_most(depth) < N) depth *= 2;
-    double shallow = 0, deep = kInfinity;
+    constexpr int rounds = 5, searches = 21;
     past_.clear();
-    for (int i = 0;; ++i) {
-        select(top_ - depth);
-        predict(top_ - depth);
+    const auto evaluate = [&](double z, Bracket& bracket, int) {
+        select(z);
+        predict(z);
         solve_more(rough, rounds, std::nullopt, all);
-        remember(top_ - depth);
+        remember(z);
         const double ratio = N / force(past_[0]);
         // Candidates deeper than needed cost more than another trial.
         power = power_of_depth(ratio > 1 ? steep : power);
-        if (ratio < most_below && ratio > 1 / most_above) break;
-        if (i == searches) return false;
-        (ratio > 1 ? shallow : deep) = depth;
-        depth *= std::clamp(std::pow(ratio, 1 / (ratio > 1 ? std::max(power, steep) : power)),
-                            1 / widest, widest);
-        if (!(depth > shallow && depth < deep)) depth = std::sqrt(shallow * deep);
-    }
+        if (ratio < most_below && ratio > 1 / most_above) return bracket.close(z);
+        (ratio > 1 ? bracket.high : bracket.low) = z;
+        const double change = std::pow(ratio, 1 / (ratio > 1 ? std::max(power, steep) : power));
+        return top_ - (top_ - z) * std::clamp(change, 1 / widest, widest);
+    };
+    const SearchEnd end =
+        search_force(top_ - least_depth(*this, N), {-kInfinity, top_}, searches, evaluate);
     past_.resize(1);
-    return true;
+    return end == SearchEnd::closed;
 }
 
 // Solves with the sum of the pressures given and Z0 as an additional unknown (Polonsky and Keer).

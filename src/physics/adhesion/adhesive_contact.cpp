@@ -44,8 +44,8 @@ public:
         (void)solve(last < kInfinity ? last : z, false);
     }
     // The first state with this force on the path: towards the surface if the force is larger than
-    // the present one, otherwise away. If no state has it, the result is that of the smallest
-    // force, with Fallback::held.
+    // the present one, otherwise away. If no state has it, the result is one without contact, with
+    // Fallback::held.
     std::optional<Level> solve_under(double N) override;
     double force_at_most(double) override { return 0; }
     void keep(ArchiveWriter& to) const override { to(slope_, energy_, fresh_); }
@@ -141,16 +141,13 @@ Level AdhesiveAsperities::solve(double Z0, bool) {
 }
 
 std::optional<Level> AdhesiveAsperities::solve_under(double N) {
-    // Where the smallest force is reached, less than this share from it.
-    constexpr double near_least = 1e-7;
-    AdhesivePath& my = *path_;
     fresh_ = false;
-    if (my.follow_to_force(N)) return report();
-    const double least = my.now.least_force;
-    (void)my.follow_to_force(least * (1 - near_least));
+    const bool found = path_->follow_to_force(N);
     Level level = report();
-    level.fallback = Fallback::held;
-    level.converged = false;
+    if (!found) {
+        level.fallback = Fallback::held;
+        level.converged = false;
+    }
     return level;
 }
 

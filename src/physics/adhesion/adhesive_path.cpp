@@ -1,6 +1,7 @@
 #include "physics/adhesion/adhesive_path.hpp"
 
 #include "base/error.hpp"
+#include "contact/force_search.hpp"
 #include "physics/adhesion/sticking.hpp"
 
 namespace rsc {
@@ -596,22 +597,24 @@ bool AdhesivePath::find_force(const Point& there) {
     const double precise =
         0.1 * options.tolerance *
         std::max(std::abs(*wanted), 1e-3 * std::max(std::abs(here.force), std::abs(there.force)));
-    Point low = here, high = there, middle;
-    for (int i = 0; i < 100; ++i) {
-        const bool from_low = std::abs(low.force - *wanted) < std::abs(high.force - *wanted);
-        const Point& nearer = from_low ? low : high;
-        const double Z = nearer.Z + (*wanted - nearer.force) / nearer.dforce;
-        double share = (Z - low.Z) / (high.Z - low.Z);
-        if (!(share > 0 && share < 1) || i % 8 == 7) share = 0.5;
-        if (!find_between(low, high, share, middle)) break;
-        if (std::abs(middle.force - *wanted) <= precise) {
-            now.least_force = std::min(now.least_force, middle.force);
-            here = middle;
-            return true;
-        }
+    const bool down = there.Z < here.Z;
+    Point low = down ? there : here, high = down ? here : there, middle;
+    const auto next = [&](const Point& p) { return p.Z + (*wanted - p.force) / p.dforce; };
+    bool found = false;
+    const auto evaluate = [&](double Z, Bracket& bracket, int i) {
+        if (!find_between(low, high, (Z - low.Z) / (high.Z - low.Z), middle))
+            return bracket.close(Z);
+        found = std::abs(middle.force - *wanted) <= precise;
+        if (found) return bracket.close(Z);
         ((middle.force < *wanted) == (low.force < *wanted) ? low : high) = middle;
-    }
-    return false;
+        bracket = {low.Z, high.Z};
+        return i % 8 == 7 ? kNotComputed : next(middle);
+    };
+    (void)search_force(next(here), {low.Z, high.Z}, 100, evaluate);
+    if (!found) return false;
+    now.least_force = std::min(now.least_force, middle.force);
+    here = std::move(middle);
+    return true;
 }
 
 AdhesivePath::Past AdhesivePath::past() const {
