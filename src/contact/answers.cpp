@@ -10,14 +10,12 @@ template <class Add>
 void for_each_force(const Indenter& indenter, const Level& level, Add add) {
     const LevelPixels& pixels = level.pixels;
     const bool by_contacts = indenter.period.finite() && indenter.shape->flat();
-    for (std::size_t k = 0; k < pixels.index.size() && !by_contacts; ++k)
-        add(pixels.x(k) - indenter.x0, pixels.y(k) - indenter.y0,
-            pixels.pressure[k] * pixels.dx * pixels.dy);
-    for (const auto k : indices(pixels.cohesive))
-        add(pixels.x_of(pixels.cohesive[k]) - indenter.x0,
-            pixels.y_of(pixels.cohesive[k]) - indenter.y0,
-            pixels.attraction[k] * pixels.dx * pixels.dy);
-    if (!by_contacts && !(pixels.index.empty() && pixels.cohesive.empty())) return;
+    pixels.each([&](std::int32_t pixel, double pressure, int contact) {
+        if (!by_contacts || contact < 0)
+            add(pixels.x_of(pixel) - indenter.x0, pixels.y_of(pixel) - indenter.y0,
+                pressure * pixels.dx * pixels.dy);
+    });
+    if (!by_contacts && !pixels.empty()) return;
     const LevelTractions& t = level.tractions;  // also of asperities that attract before contact
     for (const auto k : indices(t.x))
         add(t.x[k] - indenter.x0, t.y[k] - indenter.y0, t.pressed[k] + t.pulled[k]);

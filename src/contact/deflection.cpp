@@ -57,15 +57,12 @@ double deflection(const Level& level, const Kernel& kernel, double x, double y) 
     };
     double sum = 0;
     const LevelPixels& pixels = level.pixels;
-    const auto add_pixel = [&](std::int32_t index, double pressure) {
+    pixels.each([&](std::int32_t index, double pressure, int) {
         const double dx = period.nearest_x(x - pixels.x_of(index)),
                      dy = period.nearest_y(y - pixels.y_of(index));
         sum += pressure * (body.under_pixel(dx, dy, pixels.dx, pixels.dy) +
                            pixels.dx * pixels.dy * images(dx, dy));
-    };
-    for (const auto k : indices(pixels.index)) add_pixel(pixels.index[k], pixels.pressure[k]);
-    for (const auto k : indices(pixels.cohesive))
-        add_pixel(pixels.cohesive[k], pixels.attraction[k]);
+    });
     if (!pixels.index.empty()) return sum;
     const auto add_spot = [&](double at_x, double at_y, double force, auto&& own) {
         const double dx = period.nearest_x(x - at_x), dy = period.nearest_y(y - at_y),

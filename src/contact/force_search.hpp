@@ -16,8 +16,8 @@ struct Bracket {
 
 enum class SearchEnd { closed, most, stuck };  // most: of evaluations; stuck: no z is left
 
-// evaluate(z, bracket, i) narrows the bracket, at the end to z, and returns the next z, e.g. that of
-// Newton's method with the slope of the force; outside the bracket: the next is halfway.
+// evaluate(z, bracket, i) narrows the bracket, at the end to z, and returns the next z, e.g. that
+// of Newton's method with the slope of the force; outside the bracket: the next is halfway.
 template <class Evaluate>
 SearchEnd search_force(double z, Bracket bracket, int most, Evaluate&& evaluate) {
     for (int i = 0; i < most; ++i) {

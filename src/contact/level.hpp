@@ -182,6 +182,26 @@ struct LevelPixels {
     double y_of(std::int32_t pixel) const { return y0 + pixel / columns * dy; }
     double x(std::size_t k) const { return x_of(index[k]); }
     double y(std::size_t k) const { return y_of(index[k]); }
+    // Calls visit(pixel, pressure, contact) for all, with -1 for those without contact.
+    template <class Visit>
+    void each(Visit&& visit) const {
+        for (const auto k : indices(index))
+            visit(index[k], pressure[k], contact.empty() ? 0 : contact[k]);
+        for (const auto k : indices(cohesive)) visit(cohesive[k], attraction[k], -1);
+    }
+    bool empty() const { return index.empty() && cohesive.empty(); }
+    // The smallest range of columns and rows with all of them, {first column, last column, first
+    // row, last row}; inverted if there are none.
+    std::array<int, 4> range() const {
+        constexpr int most = std::numeric_limits<int>::max();
+        std::array<int, 4> all{most, -1, most, -1};
+        each([&](std::int32_t pixel, double, int) {
+            const int column = pixel % columns, row = pixel / columns;
+            all = {std::min(all[0], column), std::max(all[1], column), std::min(all[2], row),
+                   std::max(all[3], row)};
+        });
+        return all;
+    }
 };
 
 // Plastic residual of boundary elements: the points that are permanently lowered, row by row.

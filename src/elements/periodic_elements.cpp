@@ -45,7 +45,7 @@ PeriodicElements::PeriodicElements(const Relief& relief, const Substrate& substr
     : BoundedSolver(highest, {kSteps, kReduction, kQuick, true}),
       relief_(relief),
       substrate_(substrate),
-      hardness_(highest),
+      largest_(highest),
       aspect_(relief.ny > 1 ? relief.dy / relief.dx : kEndless),
       inner_(relief.nx, relief.ny, 1, aspect_, share_of_modes(substrate_, relief_.dx),
              &transformed_),
@@ -76,7 +76,7 @@ PeriodicElements::PeriodicElements(const PeriodicElements& finer,
               2 * finer.relief_.dx, 2 * finer.relief_.dy,
               heights.data(),       finer.relief_.nx / 2},
       substrate_(finer.substrate_),
-      hardness_(finer.hardness_),
+      largest_(finer.largest_),
       unit_(2 * finer.unit_),
       aspect_(finer.aspect_),
       inner_(relief_.nx, relief_.ny, 1, aspect_, share_of_modes(substrate_, relief_.dx),
@@ -392,7 +392,7 @@ ElementsOutcome PeriodicElements::solve(Given given, double tolerance, int most_
         for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k) {
             if (!(p_[k] > 0)) continue;
             pixels_[next] = {column_[k], j};
-            pressures_[next++] = p_[k] >= highest_ ? hardness_ : p_[k] * pressure_unit_;
+            pressures_[next++] = p_[k] >= highest_ ? largest_ : p_[k] * pressure_unit_;
         }
     });
     return outcome;

@@ -135,7 +135,7 @@ private:
 
     Relief relief_;
     Substrate substrate_;
-    double hardness_;
+    double largest_;
     // Units in which values are of order 1: heights are relative to `zero_` in units of `rms_`
     // (both of the initial heights), pressures in units of E* rms/dx with the dx of the finest
     // grid. K is `unit_` times that of PeriodicPixels with dx = 1.

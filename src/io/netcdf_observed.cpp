@@ -238,18 +238,16 @@ void ResultTable::contacts() {
 // The smallest rectangle that contains the pixels of all levels.
 void ResultTable::contact_mask() {
     std::vector<std::int32_t> steps;
-    std::int32_t left = INT32_MAX, right = -1, bottom = INT32_MAX, top = -1;
+    int left = INT32_MAX, right = -1, bottom = INT32_MAX, top = -1;
     for (const auto s : indices(r_.pixels)) {
         const LevelPixels& p = r_.pixels[s];
-        if (p.index.empty() && p.cohesive.empty()) continue;
+        if (p.empty()) continue;
         steps.push_back(std::int32_t(s));
-        for (const auto* pixels : {&p.index, &p.cohesive})
-            for (const std::int32_t k : *pixels) {
-                left = std::min(left, k % p.columns);
-                right = std::max(right, k % p.columns);
-                bottom = std::min(bottom, k / p.columns);
-                top = std::max(top, k / p.columns);
-            }
+        const auto [first, last, lowest, highest] = p.range();
+        left = std::min(left, first);
+        right = std::max(right, last);
+        bottom = std::min(bottom, lowest);
+        top = std::max(top, highest);
     }
     if (steps.empty()) return;
     const LevelPixels& grid = r_.pixels[at(steps[0])];
@@ -267,12 +265,10 @@ void ResultTable::contact_mask() {
     const auto fill = [=, this](std::size_t k, std::span<signed char> row) {
         std::ranges::fill(row, static_cast<signed char>(0));
         const LevelPixels& p = r_.pixels[at(steps[k])];
-        const auto kind_of = [&](std::int32_t pixel) -> signed char& {
+        p.each([&](std::int32_t pixel, double pressure, int contact) {
             const int i = pixel % p.columns - left, j = pixel / p.columns - bottom;
-            return row[at(j) * at(columns) + at(i)];
-        };
-        for (const auto n : indices(p.index)) kind_of(p.index[n]) = p.pressure[n] >= most ? 2 : 1;
-        for (const std::int32_t pixel : p.cohesive) kind_of(pixel) = 3;
+            row[at(j) * at(columns) + at(i)] = contact < 0 ? 3 : pressure >= most ? 2 : 1;
+        });
     };
     constexpr std::array<const char*, 4> kinds = {"apart", "contact", "yielding", "attracted"};
     file_.variable({"contact_mask",

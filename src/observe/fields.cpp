@@ -101,8 +101,7 @@ PressureMap pressures_of_spots(const HeightMap& map, bool repeats, const Level& 
 }
 
 Pressures pressures_of(const HeightMap& map, bool repeats, const Level& level) {
-    if (!level.pixels.index.empty() || !level.pixels.cohesive.empty())
-        return pressures_of(level.pixels);
+    if (!level.pixels.empty()) return pressures_of(level.pixels);
     const PressureMap all = pressures_of_spots(map, repeats, level);
     return {all.begin(), all.end()};
 }

@@ -82,6 +82,9 @@ MapLevel map_level(const MapGrid& grid, const Level& level) {
     };
     for (std::size_t k = 0; k < level.asperity.size(); ++k)
         map.outside += grid.cell(level.x[k], level.y[k]) < 0;
+    // Each pixel has an equal share of the area of its contact. It covers the cell of the surface
+    // that begins at its point.
+    std::vector<double> share(level.a.size(), 0.0);
     if (pixels.index.empty()) {
         for (std::size_t k = 0; k < level.asperity.size(); ++k) {
             const double area = level.own_area.empty() ? std::numbers::pi * level.a[k] * level.a[k]
@@ -89,21 +92,14 @@ MapLevel map_level(const MapGrid& grid, const Level& level) {
             add_spot(level.x[k], level.y[k], area, t.x.empty() ? level.f[k] : 0);
         }
     } else {
-        // Each pixel has an equal share of the area of its contact. It covers the cell of the
-        // surface that begins at its point.
-        std::vector<double> share(level.a.size(), 0.0);
-        for (const std::int32_t contact : pixels.contact)
-            share[static_cast<std::size_t>(contact)] += 1;
+        for (const std::int32_t contact : pixels.contact) share[at(contact)] += 1;
         for (std::size_t c = 0; c < share.size(); ++c)
             share[c] = std::numbers::pi * level.a[c] * level.a[c] / share[c];
-        for (std::size_t k = 0; k < pixels.index.size(); ++k)
-            add_pixel(pixels.x(k), pixels.y(k), share[static_cast<std::size_t>(pixels.contact[k])],
-                      pixels.pressure[k]);
     }
-    // With adhesion, places also attract without contact.
-    for (std::size_t k = 0; k < pixels.cohesive.size(); ++k)
-        add_pixel(pixels.x_of(pixels.cohesive[k]), pixels.y_of(pixels.cohesive[k]), 0,
-                  pixels.attraction[k]);
+    pixels.each([&](std::int32_t pixel, double pressure, int contact) {
+        const double area = contact < 0 ? 0 : share[at(contact)];
+        add_pixel(pixels.x_of(pixel), pixels.y_of(pixel), area, pressure);
+    });
     for (std::size_t k = 0; k < t.x.size(); ++k)
         add_spot(t.x[k], t.y[k], 0, t.pressed[k] + t.pulled[k]);
     std::stable_sort(entries.begin(), entries.end(),

@@ -74,9 +74,9 @@ void mark_border_pixels(const Level& level, const Indenter& indenter, double Ly,
         };
         return ends && (beyond(-p.dx, 0) || beyond(p.dx, 0) || beyond(0, -p.dy) || beyond(0, p.dy));
     };
-    for (const auto k : indices(p.index))
-        if (at_border(p.index[k])) mark(p.contact[k]);
-    if (std::ranges::any_of(p.cohesive, at_border)) mark(-1);
+    p.each([&](std::int32_t pixel, double, int contact) {
+        if (at_border(pixel)) mark(contact);
+    });
 }
 
 // Counts contacts whose distance from the border is less than <d> or their radius, and those with a
@@ -101,20 +101,17 @@ void count_edges(Level& level, const Indenter& indenter, const SolverOptions& op
         within.y0 = -everywhere;
         within.Ly = 2 * everywhere;
     }
-    std::vector<bool> cut(level.x.size(), false);
-    for (const auto k : indices(cut))
+    const std::size_t n = level.x.size();
+    std::vector<bool> cut(n + 1, false);  // the last: what attracts without contact
+    for (const auto k : indices(n))
         cut[k] = inside(within, level.x[k], level.y[k]) <
                  std::max(options.surface.mean_spacing, level.a[k]);
-    bool attracts = false;
     if (pixels.dx > 0)
         mark_border_pixels(level, indenter, surface.Ly, [&](std::int32_t contact) {
-            if (contact < 0)
-                attracts = true;
-            else
-                cut[at(contact)] = true;
+            cut[contact < 0 ? n : at(contact)] = true;
         });
-    const auto count = std::int32_t(std::ranges::count(cut, true));
-    level.edge_contacts = attracts ? std::max(count, 1) : count;
+    level.edge_contacts =
+        std::max(std::int32_t(std::count(cut.begin(), cut.end() - 1, true)), std::int32_t(cut[n]));
     if (options.surface.marks && !(pixels.dx > 0))
         level.edge_contacts += border_contacts(level, indenter, *options.surface.marks);
 }

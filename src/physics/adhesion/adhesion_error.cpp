@@ -41,20 +41,15 @@ GridError error_without_range(const Level& level, const Indenter& indenter, doub
 // touches, beside its form there, so that it and not the bodies decides how far gaps are bridged.
 // Bodies without roughness have none.
 bool bridges_roughness(const Level& level, const HeightMap& map, double range) {
-    const LevelPixels& pixels = level.pixels;
-    if (pixels.index.empty()) return false;
-    int left = pixels.columns, right = 0;
-    for (const std::int32_t index : pixels.index) {
-        left = std::min(left, index % pixels.columns);
-        right = std::max(right, index % pixels.columns);
-    }
-    const int low = pixels.index.front() / pixels.columns,
-              rows = pixels.index.back() / pixels.columns - low + 1;
+    LevelPixels pixels = level.pixels;
+    pixels.cohesive.clear();
+    if (pixels.empty()) return false;
+    const auto [left, right, low, high] = pixels.range();
     HeightMap part;
-    part.allocate(right - left + 1, rows, right - left + 1);
+    part.allocate(right - left + 1, high - low + 1, right - left + 1);
     part.dx = map.dx;
     part.dy = map.dy;
-    for (const int j : indices(rows)) std::fill_n(part.row(j), part.nx, kNotComputed);
+    for (const int j : indices(part.ny)) std::fill_n(part.row(j), part.nx, kNotComputed);
     const auto number = [](double x, double step, int n) {
         const int k = int(std::lround(x / step)) % n;
         return k < 0 ? k + n : k;

@@ -71,26 +71,17 @@ private:
 
 // The smallest window that holds all pixels under pressure or cohesive tension.
 GridWindow loaded(const LevelPixels& pixels) {
-    if (pixels.index.empty() && pixels.cohesive.empty()) return {};
-    int left = pixels.columns, right = -1, top = std::numeric_limits<int>::max(), bottom = -1;
-    for (const auto* list : {&pixels.index, &pixels.cohesive})
-        for (const std::int32_t k : *list) {
-            left = std::min(left, k % pixels.columns);
-            right = std::max(right, k % pixels.columns);
-            top = std::min(top, k / pixels.columns);
-            bottom = std::max(bottom, k / pixels.columns);
-        }
+    if (pixels.empty()) return {};
+    const auto [left, right, top, bottom] = pixels.range();
     return {left, top, right - left + 1, bottom - top + 1};
 }
 
 void load(Planes& planes, const LevelPixels& pixels, const GridWindow& where, double factor) {
-    const auto put = [&](std::int32_t pixel, double pressure) {
+    pixels.each([&](std::int32_t pixel, double pressure, int) {
         const int i = pixel % pixels.columns - where.first_column;
         const int j = pixel / pixels.columns - where.first_row;
         planes.pressure.row(j)[i] = factor * pressure;
-    };
-    for (const auto k : indices(pixels.index)) put(pixels.index[k], pixels.pressure[k]);
-    for (const auto k : indices(pixels.cohesive)) put(pixels.cohesive[k], pixels.attraction[k]);
+    });
     planes.to_modes(planes.pressure);
 }
 
