@@ -156,7 +156,7 @@ void rsc_friction::restore(const State& state) {
     if (elements) elements->restore(state.elements);
     inner.restore(state.inner);
     curve.recall(state.known);
-    history.restore(state.path, state.path);
+    history.restore(state.path);
 }
 
 int32_t rsc_friction_destroy(rsc_friction** friction) { return destroyed(friction, "friction"); }

@@ -162,8 +162,6 @@ void sum_onto(const PairLoops<Real, Coordinate>& loops, std::size_t n, const dou
 
 }  // namespace
 
-const char* pair_instruction_set() { return pair_kernels().name; }
-
 void PairSums::assign(std::size_t n, const double* x, const double* y) {
     x_.assign(x, x + n);
     y_.assign(y, y + n);

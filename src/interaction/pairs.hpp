@@ -52,7 +52,4 @@ private:
     PairPoints<std::int32_t> rough_;
 };
 
-// Instruction set in use: "avx512", "avx2", "sse2" or "generic".
-const char* pair_instruction_set();
-
 }  // namespace rsc

@@ -71,25 +71,21 @@ FrictionHistory::FrictionHistory(const Friction& friction) : friction_(friction)
     require_friction(friction);
 }
 
-void FrictionHistory::restore(const State& now, const State& committed) {
+void FrictionHistory::restore(const State& state) {
     const double c = friction_.slide_per_approach();
-    for (const State* state : {&now, &committed}) {
-        bool sound = std::isfinite(state->delta) && std::isfinite(norm(state->xi)) &&
-                     std::isfinite(state->lost + state->step_lost);
-        const auto& nodes = state->nodes;
-        for (const auto k : indices(nodes)) {
-            const Node& node = nodes[k];
-            sound = sound && std::isfinite(node.approach + node.load + node.energy) &&
-                    (k == 0 || node.approach >= nodes[k - 1].approach) &&
-                    norm(node.deflection) <= c * (state->delta - node.approach) +
-                                                 1e-9 * c * (state->delta - nodes.front().approach);
-        }
-        sound =
-            sound && nodes.size() != 1 && (nodes.empty() || nodes.back().approach == state->delta);
-        if (!sound) bad_input("the state does not belong to a contact with this friction");
+    bool sound = std::isfinite(state.delta) && std::isfinite(norm(state.xi)) &&
+                 std::isfinite(state.lost + state.step_lost);
+    const auto& nodes = state.nodes;
+    for (const auto k : indices(nodes)) {
+        const Node& node = nodes[k];
+        sound = sound && std::isfinite(node.approach + node.load + node.energy) &&
+                (k == 0 || node.approach >= nodes[k - 1].approach) &&
+                norm(node.deflection) <= c * (state.delta - node.approach) +
+                                             1e-9 * c * (state.delta - nodes.front().approach);
     }
-    now_ = now;
-    committed_ = committed;
+    sound = sound && nodes.size() != 1 && (nodes.empty() || nodes.back().approach == state.delta);
+    if (!sound) bad_input("the state does not belong to a contact with this friction");
+    now_ = state;
 }
 
 void FrictionHistory::go_to(LoadCurve& curve, double delta, Slide xi) {

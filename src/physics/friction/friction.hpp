@@ -95,10 +95,6 @@ public:
     };
     Tangent stiffness(LoadCurve& curve) const;
 
-    // commit() stores the state that rollback() restores.
-    void commit() { committed_ = now_; }
-    void rollback() { now_ = committed_; }
-
     // u(s) is linear between nodes; the first node is at first touch, the last at delta, where u =
     // 0.
     struct Node {
@@ -114,10 +110,9 @@ public:
     };
     const Friction& friction() const { return friction_; }
     const State& state() const { return now_; }
-    const State& committed() const { return committed_; }
-    // Restores states returned by state() and committed(). Throws Error(bad_input) if they do not
-    // belong to this friction.
-    void restore(const State& now, const State& committed);
+    // Restores a state returned by state(). Throws Error(bad_input) if it does not belong to this
+    // friction.
+    void restore(const State& state);
 
 private:
     // Advance along a part of a step within which no node of the memory is released.
@@ -126,7 +121,7 @@ private:
               std::vector<Node> free) const;
 
     Friction friction_;
-    State now_, committed_;
+    State now_;
 };
 
 // --- First loading and cycles at a constant approach

@@ -330,8 +330,7 @@ TEST(tangent) {
     }
 }
 
-// A larger reversal wipes out what smaller ones left; commit and rollback; states that are taken
-// back.
+// A larger reversal wipes out what smaller ones left; states that are taken back.
 TEST(memory) {
     Spheres curve = several();
     const double c = kFriction.slide_per_approach(), delta = 0.006, far = c * 0.007;
@@ -341,22 +340,22 @@ TEST(memory) {
     plain.go_to(curve, delta, {0.5 * far, 0});
     for (double xi : {-0.3, 0.2, -0.1, 0.1, 0.0, 0.05}) path.go_to(curve, delta, {xi * far, 0});
     CHECK(path.state().nodes.size() > 6);
-    path.commit();
+    const auto before = path.state();
     path.go_to(curve, delta, {0.9 * far, 0});
     plain.go_to(curve, delta, {0.9 * far, 0});
     CHECK(path.state().nodes.size() == plain.state().nodes.size());
     CHECK_CLOSE(path.tangential_force().x, plain.tangential_force().x,
                 1e-13 * kFriction.coefficient * path.force());
-    path.rollback();
+    path.restore(before);
     CHECK(path.slide().x == 0.05 * far && path.state().nodes.size() > 6);
     FrictionHistory other(kFriction);
-    other.restore(path.state(), path.committed());
+    other.restore(path.state());
     for (FrictionHistory* p : {&path, &other}) p->go_to(curve, 0.004, {-0.2 * far, 0.1 * far});
     CHECK(path.tangential_force().x == other.tangential_force().x &&
           path.work_lost() == other.work_lost());
     auto broken = path.state();
     broken.nodes.front().deflection.x = 2 * far;
-    CHECK_THROWS(other.restore(broken, broken), Error);
+    CHECK_THROWS(other.restore(broken), Error);
     // Load gone, memory gone.
     path.go_to(curve, -1, {});
     CHECK(path.tangential_force().x == 0 && path.force() == 0 && path.state().nodes.empty() &&
