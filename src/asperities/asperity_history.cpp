@@ -25,14 +25,14 @@ void AsperityModel::solve_again(double Z0, const Level& level) {
     Impl& my = *impl_;
     if (!my.follows()) return (void)solve(Z0, false);
     my.select(Z0);
-    std::vector<double> start(static_cast<std::size_t>(my.candidates.size()),
+    std::vector<double> start(at(my.candidates.size()),
                               -1e300);  // no contact
     const auto& known = level.asperity;
-    for (std::size_t k = 0; k < start.size(); ++k) {
+    for (const auto k : indices(start)) {
         const auto found =
             std::lower_bound(known.begin(), known.end(), my.candidates.set.asperity[k]);
         if (found != known.end() && *found == my.candidates.set.asperity[k])
-            start[k] = level.u[static_cast<std::size_t>(found - known.begin())];
+            start[k] = level.u[at(found - known.begin())];
     }
     my.solution.clear();
     if (start.empty()) return;

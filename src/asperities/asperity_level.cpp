@@ -11,7 +11,7 @@ namespace {
 // curvature.
 std::vector<Spot> spots_of(const Level& level, const Law& law, const Asperities& asperities) {
     std::vector<Spot> spots;
-    for (std::size_t k = 0; k < level.asperity.size(); ++k) {
+    for (const auto k : indices(level.asperity)) {
         const double root = std::sqrt(law.footprint(level.asperity[k], 0).axes);
         spots.push_back({level.x[k], level.y[k], level.a[k] / root, level.a[k] * root,
                          asperities.angle[at(level.asperity[k])]});
@@ -59,7 +59,7 @@ Method choose_method(const SolverOptions& options, const Kernel& kernel,
     // A solve takes about 40 inner products. The overhead of the mesh includes its setup and denser
     // points near the middle.
     constexpr double contacts_per_candidate = 0.4, mesh_overhead = 4;
-    const double contacts = contacts_per_candidate * static_cast<double>(candidates.size());
+    const double contacts = contacts_per_candidate * double(candidates.size());
     // The length over which a smooth part changes, relative to the extent of the candidates.
     // Between flats the finer mesh is left out: direct sums are slower by the same factor.
     double scale = 1e300;

@@ -107,7 +107,7 @@ Level AsperityModel::Impl::report(double Z0) const {
     level.separation = Z0;
     level.candidates = candidates.size();
     std::vector<std::size_t> order;
-    for (std::size_t k = 0; k < force.size(); ++k) {
+    for (const auto k : indices(force)) {
         if (force[k] > 0) order.push_back(k);
     }
     std::sort(order.begin(), order.end(),
@@ -123,8 +123,7 @@ Level AsperityModel::Impl::report(double Z0) const {
         const double f = force[k] / scale();
         const auto i = at(set.asperity[k]);
         const Vec2 place = indenter.image(asperities.x[i], asperities.y[i]);
-        level.add_contact(set.asperity[k], place.x, place.y, f, std::sqrt(area / std::numbers::pi),
-                          v[k]);
+        level.add_contact(set.asperity[k], place.x, place.y, f, std::sqrt(area / pi), v[k]);
         level.force += f;
         level.area += area;
         level.beyond_law += beyond;
@@ -145,7 +144,7 @@ double AsperityModel::Impl::force_slope(double tolerance) {
     const Vector sinking = newton.sinking();
     if (follows() || sinking.empty()) return slope / scale();
     const double mean =
-        std::accumulate(sinking.begin(), sinking.end(), 0.0) / static_cast<double>(sinking.size());
+        std::accumulate(sinking.begin(), sinking.end(), 0.0) / double(sinking.size());
     Vector change(solution.force.size(), -1 - mean);
     for (std::size_t k = 0, active = 0; k < change.size(); ++k)
         if (solution.force[k] > 0) change[k] = -1 - sinking[active++];
@@ -282,8 +281,7 @@ double AsperityModel::force_at_most(double depth) {
     select_candidates(my.contenders(), my.options, Z0, there);
     const WorkingSet& set = there.set;
     double sum = 0;
-    for (std::size_t k = 0; k < set.g0.size(); ++k)
-        sum += my.law->force(set.asperity[k], set.g0[k]);
+    for (const auto k : indices(set.g0)) sum += my.law->force(set.asperity[k], set.g0[k]);
     return sum / my.scale();
 }
 

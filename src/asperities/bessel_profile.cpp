@@ -61,8 +61,7 @@ std::array<double, N> interpolate(const std::array<long double, N>& s,
         c[0] = y[k] - s[k] * c[0];
     }
     std::array<double, N> rounded;
-    std::transform(c.begin(), c.end(), rounded.begin(),
-                   [](long double x) { return static_cast<double>(x); });
+    std::transform(c.begin(), c.end(), rounded.begin(), [](long double x) { return double(x); });
     return rounded;
 }
 
@@ -70,11 +69,11 @@ std::array<double, N> interpolate(const std::array<long double, N>& s,
 
 BesselProfile::BesselProfile() {
     std::array<long double, kTerms> s, radius, load, work;
-    for (int k = 0; k < kTerms; ++k) {  // Chebyshev nodes
+    for (const int k : indices(kTerms)) {  // Chebyshev nodes
         s[static_cast<std::size_t>(k)] =
             std::cos(std::numbers::pi_v<long double> * (k + 0.5L) / kTerms);
     }
-    for (int cell = 0; cell < kCells; ++cell) {
+    for (const int cell : indices(kCells)) {
         for (std::size_t k = 0; k < kTerms; ++k) {
             const long double along = (1 + s[k]) / 2,
                               w = (cell - kCellsOfT + along) / kCellsPerUnit;
@@ -93,8 +92,7 @@ BesselProfile::Shape BesselProfile::at(double t) const {
     if (!(t >= kFirst)) return defined<double>(t);
     const bool of_t = t < kMiddle;
     const double along = kCellsPerUnit * (of_t ? t - kFirst : std::sqrt(std::max(1 - t, 0.0)));
-    const int number =
-        std::min(static_cast<int>(along), of_t ? kCellsOfT - 1 : kCells - kCellsOfT - 1);
+    const int number = std::min(int(along), of_t ? kCellsOfT - 1 : kCells - kCellsOfT - 1);
     const Cell& cell = cells_[static_cast<std::size_t>(of_t ? number : kCellsOfT + number)];
     const double s = 2 * (along - number) - 1;
     return {evaluate(cell.radius, s), evaluate(cell.load, s), evaluate(cell.work, s)};

@@ -10,7 +10,7 @@ std::size_t Contenders::above(double Z0) {
         return last;
     }
     const std::size_t last = ranking.above(Z0 - shifts->most_gained(Z0), fresh);
-    for (std::size_t r = 0; r < last; ++r) shifts->shift(at(ranking[r].asperity));
+    for (const auto r : indices(last)) shifts->shift(at(ranking[r].asperity));
     return last;
 }
 
@@ -25,7 +25,7 @@ double Contenders::highest() {
     double most = ranking.highest();
     if (!shifts || !std::isfinite(most)) return most;
     const std::size_t last = above(most);
-    for (std::size_t r = 0; r < last; ++r) most = std::max(most, height(r));
+    for (const auto r : indices(last)) most = std::max(most, height(r));
     return most;
 }
 
@@ -44,7 +44,7 @@ void select_candidates(Contenders contenders, const SolverOptions& options, doub
     candidates.rank.resize(last);
     set.asperity.resize(last);
     std::size_t n = 0;
-    for (std::size_t r = 0; r < last; ++r) {
+    for (const auto r : indices(last)) {
         const double height = contenders.height(r);
         if (!(height > Z0)) continue;
         const auto [x, y] = ranking.place(r);
@@ -73,7 +73,7 @@ using Vector = std::vector<double>;
 class Division {
 public:
     explicit Division(const WorkingSet& candidates)
-        : candidates_(candidates), in_(static_cast<std::size_t>(candidates.size())) {
+        : candidates_(candidates), in_(at(candidates.size())) {
         working.reserve(in_.size());
     }
 
@@ -84,7 +84,7 @@ public:
     // Includes the candidates near or in contact.
     void draw(const Vector& penetration) {
         const double highest = *std::max_element(penetration.begin(), penetration.end());
-        for (std::size_t k = 0; k < in_.size(); ++k) in_[k] = penetration[k] > -0.03 * highest;
+        for (const auto k : indices(in_)) in_[k] = penetration[k] > -0.03 * highest;
     }
 
     // Sets the working set, with penetrations v.
@@ -112,7 +112,7 @@ public:
         auto& [v, force, slope] = solution;
         force.assign(in_.size(), 0.0);
         slope.assign(in_.size(), 0.0);
-        for (std::size_t k = 0; k < inside.size(); ++k) {
+        for (const auto k : indices(inside)) {
             force[inside[k]] = newton.force()[k];
             slope[inside[k]] = newton.slope()[k];
             v[inside[k]] =
@@ -130,15 +130,14 @@ public:
         }
         phi_.resize(outside.size());
         newton.potential_at(outside.size(), xo_.data(), yo_.data(), phi_.data());
-        for (std::size_t k = 0; k < outside.size(); ++k)
-            v[outside[k]] = candidates_.g0[outside[k]] - phi_[k];
+        for (const auto k : indices(outside)) v[outside[k]] = candidates_.g0[outside[k]] - phi_[k];
     }
 
     // Includes points outside that touch, or are within the error of single precision of touching.
     // True if there are none.
     bool complete(const Vector& v) {
         bool none = true;
-        for (std::size_t k = 0; k < outside.size(); ++k) {
+        for (const auto k : indices(outside)) {
             if (v[outside[k]] > -1e-4 * phi_[k]) {
                 in_[outside[k]] = 1;
                 none = false;

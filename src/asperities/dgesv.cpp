@@ -24,9 +24,9 @@ std::unique_ptr<double[]> allocate_matrix(std::size_t n) {
 // K = I + diag(weight) B, column-major.
 void build_matrix(const WorkingSet& set, const Kernel& kernel, const Vector& weight, double* K) {
     const std::size_t n = weight.size();
-    for (std::size_t j = 0; j < n; ++j) {
+    for (const auto j : indices(n)) {
         double* column = K + j * n;
-        for (std::size_t i = 0; i < n; ++i) {
+        for (const auto i : indices(n)) {
             if (i != j) column[i] = weight[i] * kernel.at(set.x[i] - set.x[j], set.y[i] - set.y[j]);
         }
         column[j] = 1 + weight[j] * kernel.self();
@@ -56,7 +56,7 @@ void paper_equations(const Law& law, const Kernel& kernel, const WorkingSet& set
 PaperOutcome solve_by_dgesv(const Law& law, const Kernel& kernel, const WorkingSet& set,
                             const PaperMethod& method, Vector& v, Vector& force, Vector& slope) {
     const int n = set.size();
-    const std::size_t size = static_cast<std::size_t>(n);
+    const std::size_t size = at(n);
     const auto K = allocate_matrix(size);
     std::vector<int> pivots;
     PairSums pairs(kernel);

@@ -29,7 +29,7 @@ Elliptic elliptic(double complementary) {
         half *= shrink;
         term *= 2 * shrink * shrink;
     }
-    const double K = std::numbers::pi / (2 * arithmetic), D = K * sum;
+    const double K = pi / (2 * arithmetic), D = K * sum;
     return {K, K - D, D};
 }
 
@@ -64,9 +64,8 @@ EllipseFactors ellipse_factors(double ratio) {
     const Elliptic e = elliptic(f.axes);
     // F1 of eq. 4.30 with the powers of e^2 cancelled, since [(a/b)^2 E - K][K - E] = e^4 B D
     // (a/b)^2.
-    f.F1 = std::cbrt(4 / std::numbers::pi) * std::sqrt(f.axes) *
-           std::pow(e.B * e.D / (f.axes * f.axes), 1.0 / 6);
-    f.F2 = 2 / std::numbers::pi * std::sqrt(f.axes) * e.K / f.F1;
+    f.F1 = std::cbrt(4 / pi) * std::sqrt(f.axes) * std::pow(e.B * e.D / (f.axes * f.axes), 1.0 / 6);
+    f.F2 = 2 / pi * std::sqrt(f.axes) * e.K / f.F1;
     return f;
 }
 

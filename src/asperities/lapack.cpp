@@ -57,7 +57,7 @@ private:
 // alpha and off-diagonal beta.
 double lowest_of_tridiagonal(std::vector<double> alpha, std::vector<double> beta,
                              std::vector<double>& vector) {
-    const int n = static_cast<int>(alpha.size());
+    const int n = int(alpha.size());
     beta.resize(alpha.size());
     std::vector<double> z(alpha.size() * alpha.size()), work(2 * alpha.size());
     int info = 0;
@@ -70,7 +70,7 @@ double lowest_of_tridiagonal(std::vector<double> alpha, std::vector<double> beta
 }  // namespace
 
 bool solve(int n, double* A, double* b, std::vector<int>& pivots) {
-    pivots.resize(static_cast<std::size_t>(n));
+    pivots.resize(at(n));
     const int one = 1;
     int info = 0;
     const Turn turn;
@@ -96,7 +96,7 @@ double lanczos_lowest(
     std::vector<double> alpha, beta, image(n), ritz;
     std::vector<double> q(n);
     // A fixed start vector that is not orthogonal to any eigenvector by symmetry.
-    for (std::size_t k = 0; k < n; ++k) q[k] = std::sin(12.9898 * static_cast<double>(k + 1)) + 0.1;
+    for (const auto k : indices(n)) q[k] = std::sin(12.9898 * double(k + 1)) + 0.1;
     double length = std::sqrt(dot(q, q)), lowest = 1;
     while (basis.size() < most) {
         for (double& x : q) x /= length;
@@ -104,14 +104,14 @@ double lanczos_lowest(
         multiply(q, image);
         alpha.push_back(dot(q, image));
         // Three-term recurrence, after which reorthogonalisation only removes rounding errors.
-        for (std::size_t k = 0; k < n; ++k) image[k] -= alpha.back() * q[k];
+        for (const auto k : indices(n)) image[k] -= alpha.back() * q[k];
         if (basis.size() > 1) {
             const auto& before = basis[basis.size() - 2];
-            for (std::size_t k = 0; k < n; ++k) image[k] -= beta.back() * before[k];
+            for (const auto k : indices(n)) image[k] -= beta.back() * before[k];
         }
         for (const auto& b : basis) {
             const double c = dot(b, image);
-            for (std::size_t k = 0; k < n; ++k) image[k] -= c * b[k];
+            for (const auto k : indices(n)) image[k] -= c * b[k];
         }
         q = image;
         length = std::sqrt(dot(q, q));
@@ -128,8 +128,8 @@ double lanczos_lowest(
         beta.push_back(length);
     }
     vector.assign(n, 0.0);
-    for (std::size_t m = 0; m < ritz.size(); ++m) {
-        for (std::size_t k = 0; k < n; ++k) vector[k] += ritz[m] * basis[m][k];
+    for (const auto m : indices(ritz)) {
+        for (const auto k : indices(n)) vector[k] += ritz[m] * basis[m][k];
     }
     return lowest;
 }

@@ -21,7 +21,7 @@ public:
 
     void respond(int n, const int* asperity, const double* u, double* force, double* slope,
                  double* work) const override {
-        for (int k = 0; k < n; ++k) {
+        for (const int k : indices(n)) {
             const double x = std::max(u[k], 0.0);
             const double c_root = c_[at(asperity[k])] * std::sqrt(x);
             force[k] = c_root * x;
@@ -31,18 +31,18 @@ public:
     }
 
     Footprint footprint(int asperity, double u) const override {
-        return {u > 0 ? std::numbers::pi * radius_[at(asperity)] * u : 0.0, 1, false};
+        return {u > 0 ? pi * radius_[at(asperity)] * u : 0.0, 1, false};
     }
     LawCapabilities capabilities() const override { return {this, this, true, true}; }
     bool sinks() const override { return false; }
     Spread spread(int asperity, double u) const override {
-        const double slope = std::numbers::pi * radius_[at(asperity)];
+        const double slope = pi * radius_[at(asperity)];
         return {slope * u, slope, 0.5 * slope * u * u};
     }
     double widening(int, double u) const override { return 0.5 / u; }
     // f/A = 4 E*/(3 pi) sqrt(u/r)
     double yield_penetration(int asperity, double pressure) const override {
-        const double root = 0.75 * std::numbers::pi * pressure / E_star_;
+        const double root = 0.75 * pi * pressure / E_star_;
         return root * root * radius_[at(asperity)];
     }
 
@@ -76,10 +76,10 @@ public:
             s.last = ellipse.F2 * (q2 > 0   ? 4 * kappa / q2
                                    : q2 < 0 ? 2 * kappa / -q2 * (std::cosh(kDeepest) - 1)
                                             : kInfinity);
-            s.spot = std::numbers::pi * ellipse.F1 * ellipse.F1;
+            s.spot = pi * ellipse.F1 * ellipse.F1;
             s.axes = ellipse.axes;
             if (place_[at(i)] < 0) {
-                place_[at(i)] = static_cast<int>(summits_.size());
+                place_[at(i)] = int(summits_.size());
                 summits_.emplace_back();
             }
             summits_[at(place_[at(i)])] = s;
@@ -88,7 +88,7 @@ public:
 
     void respond(int n, const int* asperity, const double* u, double* force, double* slope,
                  double* work) const override {
-        for (int k = 0; k < n; ++k) {
+        for (const int k : indices(n)) {
             if (!(u[k] > 0)) {
                 force[k] = slope[k] = work[k] = 0;
                 continue;
@@ -218,7 +218,7 @@ static_assert(std::size(kLaws) == kLawNames.size());
 
 }  // namespace
 
-const LawTraits& traits(LawKind kind) { return kLaws[static_cast<int>(kind)].traits; }
+const LawTraits& traits(LawKind kind) { return kLaws[int(kind)].traits; }
 
 std::unique_ptr<Law> make_law(LawKind kind, const Asperities& asperities, double E_star,
                               ShiftedSummits* shifts) {
@@ -237,7 +237,7 @@ std::unique_ptr<Law> make_law(LawKind kind, const Asperities& asperities, double
                     "summit, which was "
                     "not given: 'hertz' and 'elliptic' are possible");
     }
-    return kLaws[static_cast<int>(kind)].make(asperities, E_star, shifts);
+    return kLaws[int(kind)].make(asperities, E_star, shifts);
 }
 
 LawCapabilities capabilities_of(LawKind kind) {

@@ -43,10 +43,10 @@ constexpr double kFirstLeap = 0.5, kLastLeap = 1e-6;
 
 double relative_residual(const Vector& error, const Vector& force) {
     double most = 0, e2 = 0, f2 = 0;  // scaled by the largest value
-    for (std::size_t k = 0; k < force.size(); ++k)
+    for (const auto k : indices(force))
         most = std::max({most, std::abs(force[k]), std::abs(error[k])});
     if (!(most > 0)) return 0;
-    for (std::size_t k = 0; k < force.size(); ++k) {
+    for (const auto k : indices(force)) {
         e2 += (error[k] / most) * (error[k] / most);
         f2 += (force[k] / most) * (force[k] / most);
     }
@@ -69,7 +69,7 @@ void Newton::evaluate(const WorkingSet& set, State& state, bool accurate) {
     law_.respond(n, set.asperity.data(), state.v.data(), state.force.data(), state.slope.data(),
                  state.work.data());
     state.active.clear();
-    for (int k = 0; k < n; ++k) {
+    for (const int k : indices(n)) {
         if (state.force[at(k)] > 0) state.active.push_back(k);
     }
     products_->set_active(state.active);
@@ -103,10 +103,10 @@ void Newton::scale_active(const State& state) {
 }
 
 void Newton::multiply(const Vector& w, Vector& out) {
-    for (std::size_t k = 0; k < root_.size(); ++k) force_[k] = root_[k] * w[k];
+    for (const auto k : indices(root_)) force_[k] = root_[k] * w[k];
     stopping_point();
     products_->inner(force_.data(), phi_.data());
-    for (std::size_t k = 0; k < root_.size(); ++k) out[k] = w[k] + root_[k] * phi_[k];
+    for (const auto k : indices(root_)) out[k] = w[k] + root_[k] * phi_[k];
 }
 
 void Newton::steihaug(const Vector& b, double forcing, double radius, Vector& w, Step& out) {
@@ -120,11 +120,11 @@ void Newton::steihaug(const Vector& b, double forcing, double radius, Vector& w,
     out = Step{std::move(out.dv)};
     const auto to_border = [&] {  // largest t >= 0 with |w + t p| = radius
         const double t = (-wp + std::sqrt(wp * wp + pp * (radius * radius - ww))) / pp;
-        for (std::size_t k = 0; k < n; ++k) w[k] += t * p_[k];
+        for (const auto k : indices(n)) w[k] += t * p_[k];
         out.border = true;
         return t;
     };
-    const int most = static_cast<int>(std::min<std::size_t>(2 * n + 10, kMostGradients));
+    const int most = int(std::min<std::size_t>(2 * n + 10, kMostGradients));
     for (int i = 0; i < most && rr > goal && rr > 0; ++i) {
         multiply(p_, mp_);
         const double curvature = dot(p_, mp_);
@@ -141,7 +141,7 @@ void Newton::steihaug(const Vector& b, double forcing, double radius, Vector& w,
             break;
         }
         double rr_new = 0;
-        for (std::size_t k = 0; k < n; ++k) {
+        for (const auto k : indices(n)) {
             w[k] += alpha * p_[k];
             r_[k] -= alpha * mp_[k];
             rr_new += r_[k] * r_[k];
@@ -152,7 +152,7 @@ void Newton::steihaug(const Vector& b, double forcing, double radius, Vector& w,
         wp = beta * (wp + alpha * pp);
         pp = rr_new + beta * beta * pp;
         rr = rr_new;
-        for (std::size_t k = 0; k < n; ++k) p_[k] = r_[k] + beta * p_[k];
+        for (const auto k : indices(n)) p_[k] = r_[k] + beta * p_[k];
     }
     out.norm = std::sqrt(dot(w, w));
 }
@@ -164,18 +164,18 @@ void Newton::step(const WorkingSet& set, const State& state, double forcing, dou
     scale_active(state);
     const std::size_t n = root_.size();
     Vector b(n), w;
-    for (std::size_t k = 0; k < n; ++k) b[k] = -root_[k] * state.res[at(state.active[k])];
+    for (const auto k : indices(n)) b[k] = -root_[k] * state.res[at(state.active[k])];
     steihaug(b, forcing, radius, w, out);
     out.dv.assign(at(set.size()), 0.0);
     df_.resize(n);
-    for (std::size_t k = 0; k < n; ++k) {
+    for (const auto k : indices(n)) {
         out.dv[at(state.active[k])] = w[k] / root_[k];
         df_[k] = root_[k] * w[k];
     }
     const auto& passive = products_->passive();
     passive_.resize(passive.size());
     products_->inner_passive(df_.data(), passive_.data());
-    for (std::size_t k = 0; k < passive.size(); ++k) {
+    for (const auto k : indices(passive)) {
         const std::size_t i = at(passive[k]);
         const double change = -state.res[i] - passive_[k];
         const double reached = state.v[i] + change;
@@ -219,7 +219,7 @@ bool Newton::descend(const WorkingSet& set, double forcing, TrustRegion& trust) 
         products_->set_active(now_.active);
         step(set, now_, forcing, trust.radius, trust.entering, next);
         trial_.v.resize(now_.v.size());
-        for (std::size_t k = 0; k < now_.v.size(); ++k) trial_.v[k] = now_.v[k] + next.dv[k];
+        for (const auto k : indices(now_.v)) trial_.v[k] = now_.v[k] + next.dv[k];
         evaluate(set, trial_, !rough_will_do(expected));
         const double decrease = now_.energy - trial_.energy;
         const double noise =
@@ -307,19 +307,18 @@ bool Newton::positive_definite(const WorkingSet& set, const State& state, Vector
 // lower.
 void Newton::leave_saddle(const WorkingSet& set, const Vector& w) {
     double largest = 0;
-    for (std::size_t k = 0; k < w.size(); ++k) {
+    for (const auto k : indices(w)) {
         const std::size_t i = at(now_.active[k]);
         largest = std::max(largest,
                            std::abs(w[k] / root_[k]) / (now_.v[i] - law_.onset(set.asperity[i])));
     }
     double gradient = 0;
-    for (std::size_t k = 0; k < w.size(); ++k)
-        gradient += w[k] * root_[k] * now_.res[at(now_.active[k])];
+    for (const auto k : indices(w)) gradient += w[k] * root_[k] * now_.res[at(now_.active[k])];
     const double downhill = gradient > 0 ? -1.0 : 1.0;
     for (double length = kFirstLeap; length > kLastLeap; length *= 0.5) {
         for (double side : {downhill, -downhill}) {
             trial_.v = now_.v;
-            for (std::size_t k = 0; k < w.size(); ++k) {
+            for (const auto k : indices(w)) {
                 trial_.v[at(now_.active[k])] += side * length / largest * w[k] / root_[k];
             }
             evaluate(set, trial_, true);
@@ -335,7 +334,7 @@ void Newton::potential_at(std::size_t n, const double* x, const double* y, doubl
     products_->set_active(now_.active);
     active_force_.clear();
     for (int k : now_.active) active_force_.push_back(now_.force[at(k)]);
-    products_->elsewhere(active_force_.data(), static_cast<int>(n), x, y, phi);
+    products_->elsewhere(active_force_.data(), int(n), x, y, phi);
 }
 
 // Solves with inner products and corrects with accurate ones: with r = b - A w, b'A^-1 b = b'w +
@@ -347,7 +346,7 @@ double Newton::stiffness(double tolerance) {
     Vector b(n), r, more, all(now_.phi.size());
     Vector& w = sinking_;
     w.assign(n, 0.0);
-    for (std::size_t k = 0; k < n; ++k) b[k] = -root_[k];
+    for (const auto k : indices(n)) b[k] = -root_[k];
     r = b;
     const double goal = std::sqrt(tolerance * dot(b, b));
     const double forcing = std::min(std::max(products_->inner_error(), std::sqrt(tolerance)), 1e-2);
@@ -357,11 +356,11 @@ double Newton::stiffness(double tolerance) {
         const double before = std::sqrt(dot(r, r));
         Step ignored;
         steihaug(Vector(r), forcing, kInfinity, more, ignored);
-        for (std::size_t k = 0; k < n; ++k) w[k] += more[k];
+        for (const auto k : indices(n)) w[k] += more[k];
         if (products_->inner_error() <= tolerance) return -dot(b, w);
-        for (std::size_t k = 0; k < n; ++k) force_[k] = root_[k] * w[k];
+        for (const auto k : indices(n)) force_[k] = root_[k] * w[k];
         products_->full(force_.data(), all.data());
-        for (std::size_t k = 0; k < n; ++k) r[k] = b[k] - w[k] - root_[k] * all[at(now_.active[k])];
+        for (const auto k : indices(n)) r[k] = b[k] - w[k] - root_[k] * all[at(now_.active[k])];
         left = std::sqrt(dot(r, r));
         if (left <= goal || !(left < 0.5 * before)) break;
     }
@@ -370,7 +369,7 @@ double Newton::stiffness(double tolerance) {
 
 std::vector<double> Newton::sinking() const {
     Vector change(sinking_);
-    for (std::size_t k = 0; k < change.size(); ++k) change[k] /= root_[k];
+    for (const auto k : indices(change)) change[k] /= root_[k];
     return change;
 }
 

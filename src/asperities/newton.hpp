@@ -24,7 +24,7 @@ namespace rsc {
 struct WorkingSet {
     std::vector<int> asperity;
     std::vector<double> x, y, g0;
-    int size() const { return static_cast<int>(asperity.size()); }
+    int size() const { return int(asperity.size()); }
     void reserve(std::size_t n) {
         asperity.reserve(n);
         x.reserve(n);

@@ -34,11 +34,11 @@ void Ranking::assign(const Asperities& asperities, const Indenter& indenter) {
     sorted_ = 0;
     entries_.reserve(asperities.size());
     highest_rest_ = highest_z_ = -kInfinity;
-    for (std::size_t i = 0; i < asperities.size(); ++i) {
+    for (const auto i : indices(asperities)) {
         highest_z_ = std::max(highest_z_, asperities.z[i]);
         const double h = indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]);
         if (h == -kInfinity) continue;
-        entries_.push_back({h, static_cast<int>(i)});
+        entries_.push_back({h, int(i)});
         highest_rest_ = std::max(highest_rest_, h);
     }
 }
@@ -74,7 +74,7 @@ void Ranking::place_sorted() {
     places_.resize(sorted_, {0, 0, 0, -1});
     for (std::size_t k = 0; k < sorted_; ++k)
         if (const int asperity = entries_[k].asperity; places_[k].asperity != asperity) {
-            const auto i = static_cast<std::size_t>(asperity);
+            const auto i = at(asperity);
             places_[k] = {asperities_->x[i], asperities_->y[i], asperities_->z[i], asperity};
         }
 }
@@ -92,16 +92,16 @@ std::size_t Ranking::above(double Z0, std::vector<int>& fresh) {
         end = std::partition(rest, entries_.end(),
                              [threshold](const Entry& e) { return e.height > threshold; });
         std::sort(rest, end, comes_first);
-        places_.resize(static_cast<std::size_t>(end - first),
+        places_.resize(at(end - first),
                        {0, 0, 0, -1});  // before sorted_ counts them: there may be no memory
         for (auto e = rest; e != end; ++e) fresh.push_back(e->asperity);
-        sorted_ = static_cast<std::size_t>(end - first);
+        sorted_ = at(end - first);
         highest_rest_ = end == entries_.end() ? -kInfinity : threshold;
         place_sorted();
     }
     const auto last =
         std::partition_point(first, end, [Z0](const Entry& e) { return e.height > Z0; });
-    return static_cast<std::size_t>(last - first);
+    return at(last - first);
 }
 
 }  // namespace rsc

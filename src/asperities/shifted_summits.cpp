@@ -120,7 +120,7 @@ double ShiftedSummits::most_gained(double Z0) const {
 double steepest_contact(const Level& level, const Indenter& indenter) {
     Vec2 steepest;
     double square = 0;
-    for (std::size_t k = 0; k < level.x.size(); ++k) {
+    for (const auto k : indices(level.x)) {
         const Vec2 slope =
             indenter.shape->gradient(level.x[k] - indenter.x0, level.y[k] - indenter.y0);
         if (const double here = slope.x * slope.x + slope.y * slope.y; here > square) {

@@ -10,7 +10,7 @@ using Vector = std::vector<double>;
 void EarlierLevels::remember(double Z0, const Candidates& candidates, const Vector& v) {
     const auto& rank = candidates.rank;
     Past level{Z0, Vector(rank.empty() ? 0 : rank.back() + 1, kNotComputed)};
-    for (std::size_t k = 0; k < rank.size(); ++k) level.phi[rank[k]] = candidates.set.g0[k] - v[k];
+    for (const auto k : indices(rank)) level.phi[rank[k]] = candidates.set.g0[k] - v[k];
     past_ = std::move(level);
 }
 
@@ -18,7 +18,7 @@ void EarlierLevels::bend(const Candidates& candidates, const Vector& slope) {
     if (!past_ || past_->phi.size() != candidates.rank.back() + 1) return;
     Past& last = *past_;
     last.slope.assign(last.phi.size(), 0.0);
-    for (std::size_t k = 0; k < slope.size(); ++k) last.slope[candidates.rank[k]] = slope[k];
+    for (const auto k : indices(slope)) last.slope[candidates.rank[k]] = slope[k];
 }
 
 void EarlierLevels::carry(const Candidates& candidates, const Vector& v, std::size_t asperities,
@@ -32,7 +32,7 @@ void EarlierLevels::carry(const Candidates& candidates, const Vector& v, std::si
             last_place_.place = from;
             last_place_.phi.resize(asperities, kNotComputed);
             last_place_.known = candidates.set.asperity;
-            for (std::size_t k = 0; k < v.size(); ++k)
+            for (const auto k : indices(v))
                 last_place_.phi[at(candidates.set.asperity[k])] = candidates.set.g0[k] - v[k];
         }
         past_.reset();
@@ -56,7 +56,7 @@ bool EarlierLevels::predict(double Z0, const Candidates& candidates, Vector& sta
     if (!past_ && !last_place_.known.empty()) {
         start.resize(rank.size());
         bool any = false;
-        for (std::size_t k = 0; k < rank.size(); ++k) {
+        for (const auto k : indices(rank)) {
             const auto i = at(candidates.set.asperity[k]);
             double phi = last_place_.phi[i];
             if (step_ratio_ != 0 && std::isfinite(place_before_.phi[i]))
@@ -69,7 +69,7 @@ bool EarlierLevels::predict(double Z0, const Candidates& candidates, Vector& sta
     if (!past_) return false;
     start.resize(rank.size());
     bool any = false;
-    for (std::size_t k = 0; k < rank.size(); ++k) {
+    for (const auto k : indices(rank)) {
         double phi = rank[k] < past_->phi.size() ? past_->phi[rank[k]] : kNotComputed;
         if (rank[k] < past_->slope.size())
             phi = std::max(phi + (Z0 - past_->separation) * past_->slope[rank[k]], 0.0);
@@ -94,18 +94,18 @@ Vector cold_start(const Law& law, Products& products, const WorkingSet& candidat
         active.clear();
         for (Vector* list : {&active_F, &x, &y}) list->clear();
         double total = 0, weighted = 0;
-        for (int k = 0; k < n; ++k) {
+        for (const int k : indices(n)) {
             if (!(F[at(k)] > 0)) continue;
-            active.push_back(static_cast<int>(active.size()));
+            active.push_back(int(active.size()));
             x.push_back(candidates.x[at(k)]);
             y.push_back(candidates.y[at(k)]);
             active_F.push_back(F[at(k)]);
             total += F[at(k)];
         }
-        products.set_points(static_cast<int>(active.size()), x.data(), y.data());
+        products.set_points(int(active.size()), x.data(), y.data());
         products.set_active(active);
         products.inner(active_F.data(), phi.data());
-        for (std::size_t k = 0; k < active.size(); ++k) weighted += active_F[k] * phi[k];
+        for (const auto k : indices(active)) weighted += active_F[k] * phi[k];
         (weighted > s * total ? low : high) = s;
     }
     for (std::size_t k = 0; k < at(n); ++k) start[k] = candidates.g0[k] - low;

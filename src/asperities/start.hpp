@@ -67,7 +67,7 @@ private:
         void spread(const std::vector<double>& values, std::size_t size) {
             phi.assign(size, std::numeric_limits<double>::quiet_NaN());
             if (values.size() != known.size() || !fits(size)) return;
-            for (std::size_t k = 0; k < values.size(); ++k) phi[at(known[k])] = values[k];
+            for (const auto k : indices(values)) phi[at(known[k])] = values[k];
         }
         bool fits(std::size_t asperities) const {
             return (phi.empty() || phi.size() == asperities) &&

@@ -33,17 +33,16 @@ double shell_energy(double p, double q, double d) {
 // Element (2/pi) sqrt(a b) (1/d - U) of the overlap matrix for contact radii a and b at a distance
 // d.
 double shell_overlap(double a, double b, double d) {
-    constexpr double scale = kWidening * 2 / std::numbers::pi;
+    constexpr double scale = kWidening * 2 / pi;
     if (!(d < scale * (a + b)) || !(a > 0) || !(b > 0)) return 0;
-    return 2 / std::numbers::pi * std::sqrt(a * b) *
-           (1 / d - shell_energy(scale * a, scale * b, d));
+    return 2 / pi * std::sqrt(a * b) * (1 / d - shell_energy(scale * a, scale * b, d));
 }
 
 // Pairs whose shells overlap.
 std::vector<Pair> shell_pairs(const Vector& x, const Vector& y, const Vector& a,
                               const Period& period) {
     Vector rho(a);
-    for (double& r : rho) r *= kWidening * 2 / std::numbers::pi;
+    for (double& r : rho) r *= kWidening * 2 / pi;
     std::vector<Pair> pairs;
     for_close_pairs(x, y, rho, period, [&](std::size_t i, std::size_t j, double d) {
         pairs.push_back({i, j, d});
@@ -85,16 +84,16 @@ std::vector<Cluster> doubtful_clusters(const std::vector<Pair>& pairs, const Vec
     for (std::size_t k = 0; k < pairs.size(); ++k) {
         if (overlap[k] > 0) parent[root(pairs[k].i)] = root(pairs[k].j);
     }
-    constexpr std::size_t none = static_cast<std::size_t>(-1);
+    constexpr std::size_t none = at(-1);
     std::vector<std::size_t> cluster_of(n, none),
         place(n);  // by root; position of a point in its cluster
     std::vector<Cluster> clusters;
-    for (std::size_t i = 0; i < n; ++i) {
+    for (const auto i : indices(n)) {
         if (row[i] < kDiagonal || cluster_of[root(i)] != none) continue;
         cluster_of[root(i)] = clusters.size();
         clusters.emplace_back();
     }
-    for (std::size_t i = 0; i < n; ++i) {
+    for (const auto i : indices(n)) {
         const std::size_t c = cluster_of[root(i)];
         if (c == none) continue;
         place[i] = clusters[c].points.size();
@@ -114,11 +113,11 @@ bool positive_definite(const Cluster& cluster, const Vector& a) {
     const std::size_t m = cluster.points.size();
     if (m > largest) return false;
     Vector matrix(m * m, 0.0);
-    for (std::size_t i = 0; i < m; ++i) matrix[i * m + i] = kDiagonal;
+    for (const auto i : indices(m)) matrix[i * m + i] = kDiagonal;
     for (const Pair& p : cluster.pairs) {
         matrix[p.i * m + p.j] = matrix[p.j * m + p.i] = shell_overlap(a[p.i], a[p.j], p.d);
     }
-    return lapack::is_positive_definite(static_cast<int>(m), matrix.data());
+    return lapack::is_positive_definite(int(m), matrix.data());
 }
 
 Vector of_points(const Cluster& cluster, const Vector& values) {
@@ -165,7 +164,7 @@ public:
           noise_(noise) {
         for (std::size_t i : cluster.points) asperity_.push_back(asperity[i]);
         std::vector<std::size_t> place(v.size(), v.size());
-        for (std::size_t k = 0; k < cluster.points.size(); ++k) place[cluster.points[k]] = k;
+        for (const auto k : indices(cluster.points)) place[cluster.points[k]] = k;
         for (const auto& c : close) {
             const std::size_t i = place[c.i], j = place[c.j];
             if (i < v.size() && j < v.size()) inside_.push_back({i, j, c.value});
@@ -180,7 +179,7 @@ public:
 private:
     Vector forces(const Vector& v) const {
         Vector f(v.size());
-        for (std::size_t k = 0; k < v.size(); ++k) f[k] = law_.force(asperity_[k], v[k]);
+        for (const auto k : indices(v)) f[k] = law_.force(asperity_[k], v[k]);
         return f;
     }
 
@@ -194,7 +193,7 @@ private:
         f_high_ = forces(high);
         // Sets relief_ to what less force on the partners, less(k), adds to the penetrations.
         const auto relieve = [&](auto less) {
-            for (std::size_t k = 0; k < v_.size(); ++k) change_[k] = less(k);
+            for (const auto k : indices(v_)) change_[k] = less(k);
             couple(inside_, change_, relief_);
         };
         relieve(
@@ -202,11 +201,9 @@ private:
         Vector slack(relief_);
         for (double& s : slack) s = give * s + noise_;
         relieve([&](std::size_t k) { return force_[k] - f_low_[k]; });
-        for (std::size_t k = 0; k < v_.size(); ++k)
-            high[k] = std::min(high[k], v_[k] + relief_[k] + slack[k]);
+        for (const auto k : indices(v_)) high[k] = std::min(high[k], v_[k] + relief_[k] + slack[k]);
         relieve([&](std::size_t k) { return f_high_[k] - force_[k]; });
-        for (std::size_t k = 0; k < v_.size(); ++k)
-            low[k] = std::max(low[k], v_[k] - relief_[k] - slack[k]);
+        for (const auto k : indices(v_)) low[k] = std::max(low[k], v_[k] - relief_[k] - slack[k]);
         for (std::size_t k = 0; k < v_.size(); ++k) {
             if (low[k] > high[k]) return false;
         }
@@ -220,13 +217,13 @@ private:
             if (!narrow(low, high)) return true;
         }
         Vector a(v_.size());
-        for (std::size_t k = 0; k < a.size(); ++k)
+        for (const auto k : indices(a))
             a[k] = secant(law_, E_star_, asperity_[k], v_[k], force_[k], slope_[k], high[k]);
         if (positive_definite(cluster_, a)) return true;
         if (deepest == 0) return false;
         std::size_t widest = 0;
         double range = -1;
-        for (std::size_t k = 0; k < a.size(); ++k) {
+        for (const auto k : indices(a)) {
             const double wide =
                 law_.force(asperity_[k], high[k]) - law_.force(asperity_[k], low[k]);
             if (wide > range) {
@@ -272,10 +269,7 @@ namespace {
 // A_j = sqrt(r_j f_i G) if the force of i vanishes, so that (2/pi) sqrt(a_i A_j)/d > `kFar` up to
 // d = farthest() a_i (r_j/r_i)^(1/5).
 constexpr double kNear = 2.0, kFar = 0.25;
-double farthest() {
-    return std::pow(
-        std::pow(2 / (std::numbers::pi * kFar), 2) * std::sqrt(4 / (3 * std::numbers::pi)), 0.4);
-}
+double farthest() { return std::pow(std::pow(2 / (pi * kFar), 2) * std::sqrt(4 / (3 * pi)), 0.4); }
 
 // Radius of passive points, which are found by the reach of others.
 constexpr double kTouch = 1e-300;
@@ -288,15 +282,13 @@ struct Radii {
           double deepest)
         : radius(slope.size()), flatness(slope.size()), reach(slope.size()) {
         double sharpest = 0;
-        for (std::size_t i = 0; i < slope.size(); ++i) {
+        for (const auto i : indices(slope)) {
             radius[i] = slope[i] / (2 * E_star);
             flatness[i] =
-                deepest > 0
-                    ? std::pow(law.area(asperity[i], deepest) / (std::numbers::pi * deepest), 0.2)
-                    : 0;
+                deepest > 0 ? std::pow(law.area(asperity[i], deepest) / (pi * deepest), 0.2) : 0;
             if (radius[i] > 0) sharpest = std::max(sharpest, radius[i] / flatness[i]);
         }
-        for (std::size_t i = 0; i < slope.size(); ++i)
+        for (const auto i : indices(slope))
             reach[i] = std::max({kNear * radius[i], farthest() * sharpest * flatness[i], kTouch});
     }
 };
@@ -339,8 +331,8 @@ struct Partners {
             all[p.j] += force[p.i] * kernel.at(p.d, 0);
         }
         const auto rivals = [&](std::size_t i, std::size_t j, double d) {
-            const double A = std::sqrt(law.area(asperity[j], v[j] + all[j]) / std::numbers::pi);
-            return 2 / std::numbers::pi * std::sqrt(radius[i] * A) > kFar * d;
+            const double A = std::sqrt(law.area(asperity[j], v[j] + all[j]) / pi);
+            return 2 / pi * std::sqrt(radius[i] * A) > kFar * d;
         };
         for (const Pair& p : distant) {
             if (rivals(p.i, p.j, p.d) || rivals(p.j, p.i, p.d))
@@ -382,10 +374,10 @@ std::vector<std::vector<std::size_t>> doubtful_parts(const Law& law, const Kerne
         partners.add_rivals(law, kernel, asperity, v, force, radii.radius, relief);
         couple(partners.close, force, relief);
     }
-    for (std::size_t i = 0; i < n; ++i) alone[i] += relief[i];
+    for (const auto i : indices(n)) alone[i] += relief[i];
     high = alone;
     const auto secants = [&] {
-        for (std::size_t i = 0; i < n; ++i) {
+        for (const auto i : indices(n)) {
             a[i] = std::max(secant(law, E_star, asperity[i], v[i], force[i], slope[i], high[i]),
                             slope[i] / (2 * E_star));
         }
@@ -401,9 +393,9 @@ std::vector<std::vector<std::size_t>> doubtful_parts(const Law& law, const Kerne
     std::erase_if(doubtful, settled);
     if (doubtful.empty()) return {};
     for (auto [from, to] : {std::pair{&high, &low}, std::pair{&low, &high}}) {
-        for (std::size_t i = 0; i < n; ++i) f[i] = law.force(asperity[i], (*from)[i]);
+        for (const auto i : indices(n)) f[i] = law.force(asperity[i], (*from)[i]);
         couple(partners.close, f, relief);
-        for (std::size_t i = 0; i < n; ++i) (*to)[i] = alone[i] - relief[i];
+        for (const auto i : indices(n)) (*to)[i] = alone[i] - relief[i];
     }
     secants();
     doubtful = doubtful_clusters(pairs, a);

@@ -55,6 +55,7 @@
 namespace rsc {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using std::numbers::pi;
 
 // A number as an index, or as a size.
 constexpr std::size_t at(auto k) { return std::size_t(k); }

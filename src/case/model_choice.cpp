@@ -56,8 +56,7 @@ std::optional<FinishedSurface> finished_surface(const Case& settings) {
     const Case::Surface& keys = settings.surface;
     if (keys.finish == Finish::none) return {};
     // Rq = Ra sqrt(pi/2) for Gaussian heights.
-    const double ratio = std::sqrt(std::numbers::pi / 2),
-                 unit = length_factor("m", settings.run.length_unit);
+    const double ratio = std::sqrt(pi / 2), unit = length_factor("m", settings.run.length_unit);
     FinishedSurface made;
     made.sigma = keys.Ra ? *keys.Ra * ratio : keys.sigma.value_or(0.01);
     const MeasuredBand* band = kMeasuredBands;

@@ -16,7 +16,7 @@ double spot_deflection(double force, double radius, double distance, double E_st
     const double s = radius / distance, near = Substrate(E_star).near();
     if (s >= 1) {
         const double t = distance / radius;
-        return 0.375 * std::numbers::pi * near * force / radius * (2 - t * t);
+        return 0.375 * pi * near * force / radius * (2 - t * t);
     }
     if (s >= kFar) {
         const double t2 = 1 / (s * s);
@@ -30,8 +30,7 @@ double spot_deflection(double force, double radius, double distance, double E_st
 }
 
 double tension_deflection(double force, double a, double c, double d, double E_star) {
-    const double near = Substrate(E_star).near(), e = std::sqrt((c - a) * (c + a)),
-                 pi = std::numbers::pi;
+    const double near = Substrate(E_star).near(), e = std::sqrt((c - a) * (c + a));
     // Integral of the Abel transform, which is 1 up to a.
     const double whole = e > 0 ? 0.5 * (a + c * c * std::atan2(e, a) / e) : a,
                  inside = 0.5 * pi * near * force / whole;

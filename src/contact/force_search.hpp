@@ -20,7 +20,7 @@ enum class SearchEnd { closed, most, stuck };  // most: of evaluations; stuck: n
 // of Newton's method with the slope of the force; outside the bracket: the next is halfway.
 template <class Evaluate>
 SearchEnd search_force(double z, Bracket bracket, int most, Evaluate&& evaluate) {
-    for (int i = 0; i < most; ++i) {
+    for (const int i : indices(most)) {
         if (!bracket.contain(z)) z = 0.5 * (bracket.low + bracket.high);
         if (!bracket.contain(z)) return SearchEnd::stuck;
         z = evaluate(z, bracket, i);

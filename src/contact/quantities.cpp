@@ -389,7 +389,7 @@ std::vector<LevelQuantity> make_quantities() {
 
 double LevelQuantity::of(const LevelValues& level, std::size_t component) const {
     if (component > 0) return level.*(component == 1 ? y : component == 2 ? z : yx);
-    return std::visit([&](auto m) { return static_cast<double>(level.*m); }, member);
+    return std::visit([&](auto m) { return double(level.*m); }, member);
 }
 
 void LevelQuantity::put(LevelValues& level, double value, std::size_t component) const {

@@ -5,8 +5,6 @@
 namespace rsc {
 namespace {
 
-using std::numbers::pi;
-
 struct Vector {
     double x, y;
 };

@@ -96,7 +96,6 @@ PeriodicPixels<Real>::PeriodicPixels(int nx, int ny, double dx, double dy,
       plans_(std::make_unique<Plans>()) {
     make_plans();
     if (!share) return;
-    const double pi = std::numbers::pi;
     set_factors([&](int i, int j) {
         const double k =
             2 * pi *
@@ -247,8 +246,7 @@ void PeriodicPixels<Real>::backward(const Columns& columns, int column) {
 template <class Real>
 void PeriodicPixels<Real>::columns(Answer answer) {
     const int blocks = (nx_ / 2 + kColumns) / kColumns;
-    const double pi = std::numbers::pi,
-                 points = static_cast<double>(nx_) * static_cast<double>(ny_);
+    const double points = static_cast<double>(nx_) * static_cast<double>(ny_);
     const auto rows = static_cast<std::size_t>(ny_);
     std::vector<Real> ky2(rows);  // (ky dx)^2
     for (int j = 0; j < ny_; ++j) {
@@ -290,7 +288,7 @@ void PeriodicPixels<Real>::scale_row(Answer answer) {
     Real* const modes = row(0);
     const double unit = answer == Answer::deflection ? 2.0 / nx_ : 0.5 / nx_;
     for (int i = 0; i <= nx_ / 2; ++i) {
-        const double k = 2 * std::numbers::pi * i / nx_;  // times dx
+        const double k = 2 * pi * i / nx_;  // times dx
         double factor = !half_space_ ? 1 : answer == Answer::deflection ? unit / k : unit * k;
         if (i == 0 && half_space_) factor = 0;
         const double share = !layered_.empty() ? static_cast<double>(layered_[at(i)]) : 1.0;

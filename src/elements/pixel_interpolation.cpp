@@ -11,7 +11,7 @@ constexpr int kMostPoints = 18;
 double error_with(int q) { return 0.2 * std::pow(6.0, -q); }
 
 // Chebyshev points of [-1, 1], and the weights for interpolation from them to t.
-double chebyshev_point(int q, int i) { return std::cos(std::numbers::pi * (i + 0.5) / q); }
+double chebyshev_point(int q, int i) { return std::cos(pi * (i + 0.5) / q); }
 void interpolation_weights(int q, double t, double* weight) {
     for (int i = 0; i < q; ++i) {
         weight[i] = 1;

@@ -141,7 +141,7 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
         return n > 0 ? column - n * std::floor(column / n) : column;
     };
     const double pixel = map.dx * map.dy;
-    const double border = (std::numbers::pi - 1 + std::numbers::ln2) / 24;
+    const double border = (pi - 1 + std::numbers::ln2) / 24;
     for (const ContactSum& s : sums) {
         const double flat = static_cast<double>(s.hard) / static_cast<double>(s.pixels);
         const double area = pixel * (static_cast<double>(s.pixels) -
@@ -149,7 +149,7 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
         level.add_contact(s.peak.y * map.nx + s.peak.x,
                           map.x0 + map.dx * inside(s.peak.x + s.px / s.weight, period_x),
                           map.y0 + map.dy * inside(s.peak.y + s.py / s.weight, period_y),
-                          s.p * pixel, std::sqrt(area / std::numbers::pi), s.own);
+                          s.p * pixel, std::sqrt(area / pi), s.own);
         level.force += s.p * pixel;
         level.area += area;
         if (std::isfinite(H0)) level.yields.push_back(s.hard > 0);

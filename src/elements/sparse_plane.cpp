@@ -72,11 +72,10 @@ PixelStencil::PixelStencil(int reach, int rows, const std::function<double(doubl
         half(at((reach + 1) * modes), 0.0);
     for (int a = 0; a <= std::max(reach, rows); ++a)
         for (int i = 0; i < modes; ++i)
-            cosine[at(a * modes + i)] = std::cos(a * std::numbers::pi * (i + 0.5) / modes) / modes;
+            cosine[at(a * modes + i)] = std::cos(a * pi * (i + 0.5) / modes) / modes;
     for (int j = 0; j < modes; ++j)
         for (int i = 0; i < modes; ++i) {
-            const double value =
-                mode(std::numbers::pi * (i + 0.5) / modes, std::numbers::pi * (j + 0.5) / modes);
+            const double value = mode(pi * (i + 0.5) / modes, pi * (j + 0.5) / modes);
             for (int a = 0; a <= reach; ++a)
                 half[at(a * modes + j)] += value * cosine[at(a * modes + i)];
         }
@@ -178,7 +177,7 @@ bool SplitPixels::suits(int nx, int ny, double aspect, const Share& share) {
     // The error is relative to the largest modes, and must stay below the smallest for K to remain
     // positive definite.
     constexpr double most = 8;
-    const bool even = !share || 1 + share(2 * std::numbers::pi / std::max(nx, ny)) < most;
+    const bool even = !share || 1 + share(2 * pi / std::max(nx, ny)) < most;
     return even && nx % kFactor == 0 && ny % kFactor == 0 && std::min(nx, ny) >= 128 &&
            aspect > 0.8 && aspect < 1.25;
 }

@@ -115,8 +115,7 @@ VectorModes TractionProducts::periodic_modes() const {
     const std::size_t columns = at(nx_) / 2 + 1, rows = at(ny_) / 2 + 1;
     VectorModes modes;
     for (auto* m : {&modes.xx, &modes.xy, &modes.yy}) m->assign(columns * rows, 0.0);
-    const double unit_x = 2 * std::numbers::pi / map_.Lx(),
-                 unit_y = 2 * std::numbers::pi / map_.Ly();
+    const double unit_x = 2 * pi / map_.Lx(), unit_y = 2 * pi / map_.Ly();
     for (const auto j : indices(rows))
         for (const auto i : indices(columns)) {
             if (i + j == 0) continue;

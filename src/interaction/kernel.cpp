@@ -61,8 +61,7 @@ SquareTable::SquareTable(double unit, const std::function<double(double)>& value
     constexpr double half = 0.5 / kOctavePieces;  // half width of a piece relative to its octave
     // Interpolation at Chebyshev points by Newton's divided differences, converted to powers.
     double place[nodes];
-    for (int i = 0; i < nodes; ++i)
-        place[i] = half * std::cos(std::numbers::pi * (i + 0.5) / nodes);
+    for (int i = 0; i < nodes; ++i) place[i] = half * std::cos(pi * (i + 0.5) / nodes);
     double before = 0;
     for (std::size_t piece = 0; piece < kPieces; ++piece) {
         const double octave = std::ldexp(1.0, static_cast<int>(piece / kOctavePieces));
@@ -207,7 +206,7 @@ Substrate::Substrate(double E_star, std::shared_ptr<const SmoothPart> smooth)
     bulge_ *= 1 + 1e-3;  // margin for maxima between the sampled distances
 }
 
-double Substrate::near() const { return 1 / (std::numbers::pi * E_star_); }
+double Substrate::near() const { return 1 / (pi * E_star_); }
 
 double Substrate::under_pixel(double x, double y, double dx, double dy) const {
     double sum = near() * dx * pixel_kernel(x / dx, y / dx, dy / dx);

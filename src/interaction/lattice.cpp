@@ -8,8 +8,6 @@
 namespace rsc {
 namespace {
 
-using std::numbers::pi;
-
 constexpr double kSmallErfc = 6;  // erfc(6) = 2e-17
 
 // Ewald sum on a cell of sides a and b with a b = 1 and the parameter sqrt(pi), for which both

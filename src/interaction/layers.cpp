@@ -216,8 +216,7 @@ double layered_answer(const LayeredBody& body, double k) {
 
 std::shared_ptr<const SmoothPart> make_layers(const LayeredBody& body, double E_star) {
     require_usable(body);
-    const double E_1 = plane_modulus(body.layer[0].E, body.layer[0].nu),
-                 near = 1 / (std::numbers::pi * E_1);
+    const double E_1 = plane_modulus(body.layer[0].E, body.layer[0].nu), near = 1 / (pi * E_1);
     const Hankel hankel(body);
     // T is smooth in k, so the table uses the square of sqrt(k). Its first pieces are much narrower
     // than 1/z.

@@ -31,7 +31,6 @@ double LineKernel::near(double x, double y) const {
 // Period 1: Lekner's sum, as near() without the constant of the reference.
 double LineKernel::far(double x, double y) const {
     constexpr double gamma = std::numbers::egamma, smallest = 1e-17;
-    const double pi = std::numbers::pi;
     double sum = 0;
     for (int m = 1;; ++m) {
         const double wave = boost::math::cyl_bessel_k(0, 2 * pi * m * x);

@@ -10,7 +10,7 @@
 namespace rsc {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kPi = pi;
 
 double bell(double beta, double t) {
     return boost::math::cyl_bessel_i(0, beta * std::sqrt(std::max(0.0, 1 - t * t)));
@@ -329,8 +329,7 @@ void FarField::make_multiplier(const MeshDesign& design,
     const auto corrections = [&design](std::size_t period) {
         std::vector<double> correction(period / 2 + 1);
         for (std::size_t m = 0; m <= period / 2; ++m) {
-            const double k =
-                2 * std::numbers::pi * static_cast<double>(m) / static_cast<double>(period);
+            const double k = 2 * pi * static_cast<double>(m) / static_cast<double>(period);
             correction[m] = std::pow(window_transform(design, k) / window_alias_sum(design, k), 2) /
                             static_cast<double>(period);
         }

@@ -470,9 +470,8 @@ void find_sigmasurf(std::string_view text, long line, std::vector<Mention>& foun
 }
 
 std::size_t separators_at_end(std::string_view text) {
-    return static_cast<std::size_t>(
-        std::ranges::count_if(text.substr(text.find_last_not_of(" \t\r,;") + 1),
-                              [](char c) { return c == ',' || c == ';'; }));
+    return at(std::ranges::count_if(text.substr(text.find_last_not_of(" \t\r,;") + 1),
+                                    [](char c) { return c == ',' || c == ';'; }));
 }
 
 // The blocks of lines with as many numbers each, between lines of text. Separators with which every

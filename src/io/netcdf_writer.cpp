@@ -222,7 +222,7 @@ void ResultTable::measured_fit(const MeasuredSpectrum& spectrum, const SelfAffin
     for (const double k : spectrum.wavenumber) fit.push_back(found.around(k));
     add("psd_fit", {"wavenumber"}, unit(4), "self-affine spectrum fitted to psd", fit,
         {{"aspect", found.aspect},
-         {"direction", found.direction * 180 / std::numbers::pi},
+         {"direction", found.direction * 180 / pi},
          {"Phi0", found.Phi0.value},
          {"Phi0_error", found.Phi0.error},
          {"kl", found.kl.value},

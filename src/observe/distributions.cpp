@@ -7,8 +7,7 @@ namespace {
 
 void add_value(Histogram& h, double value, double weight, double width) {
     const double position = value / width;
-    (position < static_cast<double>(h.weight.size()) ? h.weight[static_cast<std::size_t>(position)]
-                                                     : h.overflow) += weight;
+    (position < double(h.weight.size()) ? h.weight[at(position)] : h.overflow) += weight;
     double power = weight;
     for (double& sum : h.power) sum += power *= value;
 }
@@ -18,7 +17,7 @@ void add_value(Histogram& h, double value, double weight, double width) {
 void spread_pressure(Histogram& h, double p0, double area, double width) {
     double below = 0;
     for (std::size_t b = 0; b < h.weight.size() && below < 1; ++b) {
-        const double edge = width * static_cast<double>(b + 1) / p0;
+        const double edge = width * double(b + 1) / p0;
         const double cumulative = edge < 1 ? edge * edge : 1;
         h.weight[b] += area * (cumulative - below);
         below = cumulative;
@@ -27,9 +26,9 @@ void spread_pressure(Histogram& h, double p0, double area, double width) {
     h.total += area;
     h.squares += area * area;
     double power = 1;
-    for (std::size_t k = 0; k < h.power.size(); ++k) {  // <p^n> = 2 p0^n / (n + 2)
+    for (const auto k : indices(h.power)) {  // <p^n> = 2 p0^n / (n + 2)
         power *= p0;
-        h.power[k] += area * 2 * power / static_cast<double>(k + 3);
+        h.power[k] += area * 2 * power / double(k + 3);
     }
 }
 
@@ -39,17 +38,17 @@ void add_pixels(Histogram& h, const Level& level, double width) {
     const LevelPixels& pixels = level.pixels;
     const double area = pixels.dx * pixels.dy;
     std::vector<double> of_contact(level.a.size(), 0.0);
-    for (std::size_t k = 0; k < pixels.index.size(); ++k) {
+    for (const auto k : indices(pixels.index)) {
         add_value(h, pixels.pressure[k], area, width);
         h.total += area;
-        of_contact[static_cast<std::size_t>(pixels.contact[k])] += area;
+        of_contact[at(pixels.contact[k])] += area;
     }
     if (!pixels.index.empty())
         for (double a : of_contact) h.squares += a * a;
 }
 
 Distributions no_contacts(const PdfBins& bins) {
-    const auto n = static_cast<std::size_t>(bins.bins);
+    const auto n = at(bins.bins);
     Distributions d;
     for (Histogram* h : {&d.mean_pressure, &d.pressure, &d.spot_area}) h->weight.assign(n, 0.0);
     if (bins.gap_max > 0) d.gap.weight.assign(n, 0.0);
@@ -64,7 +63,7 @@ std::vector<double> density(const Histogram& h, double width) {
     const double total = all_weights(h);
     std::vector<double> pdf(h.weight.size(), kAbsent);
     if (!(total > 0)) return pdf;
-    for (std::size_t b = 0; b < pdf.size(); ++b) pdf[b] = h.weight[b] / (total * width);
+    for (const auto b : indices(pdf)) pdf[b] = h.weight[b] / (total * width);
     return pdf;
 }
 
@@ -87,8 +86,8 @@ Distributions distributions_of(const PdfBins& bins, const Level& level, std::int
     d.separation = level.separation;
     d.levels = 1;
     d.step = step;
-    for (std::size_t k = 0; k < level.a.size(); ++k) {
-        const double area = std::numbers::pi * level.a[k] * level.a[k];
+    for (const auto k : indices(level.a)) {
+        const double area = pi * level.a[k] * level.a[k];
         if (!(area > 0)) continue;
         const double p = level.f[k] / area;
         add_value(d.spot_area, area, 1, bins.area_width());
@@ -124,7 +123,7 @@ void add(DistributionSums& sums, const DistributionSums& more) {
         return;
     }
     if (sums.step != more.step) sums.step = -1;
-    for (std::size_t k = 0; k < sums.numbers.size(); ++k) sums.numbers[k] += more.numbers[k];
+    for (const auto k : indices(sums.numbers)) sums.numbers[k] += more.numbers[k];
 }
 
 Distributions rounded(const DistributionSums& sums, const PdfBins& bins,

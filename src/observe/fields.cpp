@@ -78,15 +78,14 @@ PressureMap pressures_of_spots(const HeightMap& map, bool repeats, const Level& 
             add_spot(all, map, repeats, {at.x[k], at.y[k], a, a, 0}, at.pressed[k], 0, hertz);
         const auto tension = [&](double t) {
             if (c == a) return 1 / std::sqrt(t);
-            return 2 / std::numbers::pi *
+            return 2 / pi *
                    std::atan2(std::sqrt(c * c - a * a),
                               std::sqrt(std::max(a * a - (1 - t) * c * c, 0.0)));
         };
         // The tension of JKR is infinite at the edge: points within a step of it have the mean
         // there.
         add_spot(all, map, repeats, {at.x[k], at.y[k], c, c, 0}, at.pulled[k], 1 - a * a / (c * c),
-                 tension, c == a ? 2 * std::numbers::pi * a * a : 0,
-                 2 * std::max(map.dx, map.dy) / c);
+                 tension, c == a ? 2 * pi * a * a : 0, 2 * std::max(map.dx, map.dy) / c);
     }
     if (!at.x.empty()) return all;
     for (std::size_t k = 0; k < level.f.size(); ++k) {

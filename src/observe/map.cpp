@@ -87,14 +87,14 @@ MapLevel map_level(const MapGrid& grid, const Level& level) {
     std::vector<double> share(level.a.size(), 0.0);
     if (pixels.index.empty()) {
         for (std::size_t k = 0; k < level.asperity.size(); ++k) {
-            const double area = level.own_area.empty() ? std::numbers::pi * level.a[k] * level.a[k]
-                                                       : level.own_area[k];
+            const double area =
+                level.own_area.empty() ? pi * level.a[k] * level.a[k] : level.own_area[k];
             add_spot(level.x[k], level.y[k], area, t.x.empty() ? level.f[k] : 0);
         }
     } else {
         for (const std::int32_t contact : pixels.contact) share[at(contact)] += 1;
         for (std::size_t c = 0; c < share.size(); ++c)
-            share[c] = std::numbers::pi * level.a[c] * level.a[c] / share[c];
+            share[c] = pi * level.a[c] * level.a[c] / share[c];
     }
     pixels.each([&](std::int32_t pixel, double pressure, int contact) {
         const double area = contact < 0 ? 0 : share[at(contact)];
@@ -187,11 +187,10 @@ RadialMean::RadialMean(const MapGrid& grid, double x0, double y0, int bins) {
         const double r = (b + 0.5) * ring_width;
         radii_.push_back(r);
         // A multiple of 4 preserves the symmetry of a square with the tip at its centre.
-        const int angles =
-            4 * std::max(16, static_cast<int>(std::ceil(4 * std::numbers::pi * r / grid.side)));
+        const int angles = 4 * std::max(16, static_cast<int>(std::ceil(4 * pi * r / grid.side)));
         touched.clear();
         for (int k = 0; k < angles; ++k) {
-            const double phi = 2 * std::numbers::pi * (k + 0.5) / angles;
+            const double phi = 2 * pi * (k + 0.5) / angles;
             for_each_weight(grid, x0 + r * std::cos(phi), y0 + r * std::sin(phi),
                             [&](std::size_t cell, double weight) {
                                 if (row[cell] == 0) touched.push_back(cell);

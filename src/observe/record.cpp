@@ -10,7 +10,7 @@ void require_finite(const Level& level, std::size_t step) {
         return;  // reported by its status
     bool finite = std::isfinite(level.separation) && std::isfinite(level.force) &&
                   std::isfinite(level.area) && std::isfinite(level.residual);
-    for (std::size_t k = 0; k < level.asperity.size(); ++k)
+    for (const auto k : indices(level.asperity))
         finite = finite && std::isfinite(level.f[k]) && std::isfinite(level.a[k]);
     if (!finite)
         throw Error(Failure::internal, "level " + std::to_string(step + 1) +
@@ -46,10 +46,10 @@ void add_cells(std::vector<CellSums>& sums, std::vector<CellSums> terms) {
 std::int32_t nearest_level(const std::vector<double>& levels, double wanted) {
     std::int32_t best = -1;
     double least = kInfinity;
-    for (std::size_t k = 0; k < levels.size(); ++k)
+    for (const auto k : indices(levels))
         if (const double distance = std::abs(levels[k] - wanted);
             best < 0 || distance < least - 1e-9 * (least + std::abs(wanted))) {
-            best = static_cast<std::int32_t>(k);
+            best = std::int32_t(k);
             least = distance;
         }
     return best;
@@ -77,7 +77,7 @@ RealizationRecord observe(const ObserveOptions& options, std::int64_t realizatio
     for (double wanted : options.pdf_levels) {
         const std::int32_t step = nearest_level(separations, wanted);
         if (step < 0) continue;
-        const Level& level = levels[static_cast<std::size_t>(step)];
+        const Level& level = levels[at(step)];
         Level no_contacts;
         no_contacts.separation = level.separation;
         const bool failed = level.status == LevelStatus::not_converged;
@@ -142,12 +142,11 @@ void Accumulators::add(const RealizationRecord& record) {
     for (std::size_t s = 0; s < steps; ++s) {
         const MapLevel& map = record.maps[s];
         std::vector<CellSums> terms;
-        for (std::size_t k = 0; k < map.cell.size(); ++k)
+        for (const auto k : indices(map.cell))
             terms.push_back({map.cell[k], map.area[k], map.force[k]});
         add_cells(maps[s], std::move(terms));
     }
-    for (std::size_t d = 0; d < distributions.size(); ++d)
-        rsc::add(distributions[d], record.distributions[d]);
+    for (const auto d : indices(distributions)) rsc::add(distributions[d], record.distributions[d]);
 }
 
 void Accumulators::append(const Accumulators& later) {
@@ -161,8 +160,7 @@ void Accumulators::append(const Accumulators& later) {
     rows.insert(rows.end(), later.rows.begin(), later.rows.end());
     rsc::append(curves, later.curves);
     for (std::size_t s = 0; s < steps; ++s) add_cells(maps[s], later.maps[s]);
-    for (std::size_t d = 0; d < distributions.size(); ++d)
-        rsc::add(distributions[d], later.distributions[d]);
+    for (const auto d : indices(distributions)) rsc::add(distributions[d], later.distributions[d]);
 }
 
 Observations Accumulators::finish() const {
@@ -173,7 +171,7 @@ Observations Accumulators::finish() const {
     o.area = o.statistics([](const LevelValues& r) { return r.area; });
 
     const std::vector<std::int32_t> counts = converged();
-    const auto cells = static_cast<std::size_t>(options.map.cells());
+    const auto cells = at(options.map.cells());
     const RadialMean mean(options.map, options.tip_x, options.tip_y, options.radial_bins);
     o.radii = mean.radii();
     std::vector<double> row(cells);
@@ -182,7 +180,7 @@ Observations Accumulators::finish() const {
         out.cells = cells;
         for (std::size_t s = 0; s < steps; ++s) {
             for (const CellSums& c : maps[s]) {
-                out.cell.push_back(static_cast<std::int32_t>(c.cell));
+                out.cell.push_back(std::int32_t(c.cell));
                 out.value.push_back(c.*member / map_divisor(options.map, counts[s]));
             }
             out.end.push_back(out.cell.size());
@@ -202,7 +200,7 @@ Observations Accumulators::finish() const {
 
 std::vector<std::int32_t> Accumulators::converged() const {
     std::vector<std::int32_t> counts(steps, 0);
-    for (std::size_t k = 0; k < rows.size(); ++k)
+    for (const auto k : indices(rows))
         counts[k % steps] += rows[k].status != LevelStatus::not_converged;
     return counts;
 }
@@ -211,7 +209,7 @@ void Accumulators::restore_map(std::size_t step, std::span<const double> area_fr
                                std::span<const double> pressure) {
     const double divisor = map_divisor(options.map, converged()[step]);
     maps[step].clear();
-    for (std::size_t k = 0; k < area_fraction.size(); ++k)
+    for (const auto k : indices(area_fraction))
         if (area_fraction[k] != 0 || pressure[k] != 0)
             maps[step].push_back(
                 {static_cast<std::int64_t>(k), area_fraction[k] * divisor, pressure[k] * divisor});
@@ -220,7 +218,7 @@ void Accumulators::restore_map(std::size_t step, std::span<const double> area_fr
 void SparseMaps::fill(std::size_t step, std::span<double> map) const {
     std::ranges::fill(map, 0.0);
     for (std::size_t k = step > 0 ? end[step - 1] : 0; k < end[step]; ++k)
-        map[static_cast<std::size_t>(cell[k])] = value[k];
+        map[at(cell[k])] = value[k];
 }
 
 }  // namespace rsc

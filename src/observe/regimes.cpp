@@ -6,8 +6,6 @@
 
 namespace rsc {
 
-using std::numbers::pi;
-
 double Hertz::area() const { return pi * radius * radius; }
 
 double Hertz::pressure(double r) const {

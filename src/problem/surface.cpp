@@ -156,9 +156,9 @@ Spectrum spectrum_of(const Case& settings) {
         const auto found =
             read_spectrum(keys.file, settings.run.length_unit, keys.twins == Twins::directional,
                           keys.twin_heights == TwinHeights::measured);
-        Spectrum spectrum = tabulated_spectrum(
-            found.table, keys.L.value_or(2 * std::numbers::pi / found.table->lowest()),
-            keys.sigma.value_or(found.sigma));
+        Spectrum spectrum =
+            tabulated_spectrum(found.table, keys.L.value_or(2 * pi / found.table->lowest()),
+                               keys.sigma.value_or(found.sigma));
         spectrum.aspect = keys.aspect;
         spectrum.direction = keys.direction;
         spectrum.shape = {keys.skewness, keys.kurtosis};
@@ -453,7 +453,7 @@ Shape shape_of(const Case& settings) {
     const GapRadii gap = gap_radii(settings);
     if (kShapes[at(keys.shape)].make == make_paraboloid)
         for (const int k : indices(2)) made.radii[k] = equivalent_radius(gap.R[k]);
-    made.angle = gap.angle * std::numbers::pi / 180;
+    made.angle = gap.angle * pi / 180;
     made.slope = keys.slope.value_or(0);
     made.radius = keys.radius.value_or(0);
     made.rim_radius = keys.rim_radius;

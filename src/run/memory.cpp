@@ -18,7 +18,7 @@ double mean_excess(double Z0, double sigma, double power) {
         const double z = low + (k + 0.5) * width;
         sum += std::pow(z - Z0, power) * std::exp(-0.5 * z * z / (sigma * sigma));
     }
-    return sum * std::max(width, 0.0) / (sigma * std::sqrt(2 * std::numbers::pi));
+    return sum * std::max(width, 0.0) / (sigma * std::sqrt(2 * pi));
 }
 
 // The integral of mean_excess(Z0 + s) over the domain, s being the height of the indenter's face:
@@ -28,15 +28,15 @@ double under_indenter(const Job& job, double Z0, double power) {
     const double step = std::max(1.0, 6 - Z0 / job.sigma) * job.sigma / steps;
     double area[steps] = {};
     const Domain& d = job.domain;
-    for (int j = 0; j < side; ++j)
-        for (int i = 0; i < side; ++i) {
+    for (const int j : indices(side))
+        for (const int i : indices(side)) {
             const double x = d.x0 + (i + 0.5) * d.Lx / side - job.indenter.x0,
                          y = d.y0 + (j + 0.5) * d.Ly / side - job.indenter.y0;
             const double s = std::max(0.0, job.indenter.shape->height(x, y)) / step;
-            if (s < steps) area[static_cast<int>(s)] += d.Lx * d.Ly / (side * side);
+            if (s < steps) area[int(s)] += d.Lx * d.Ly / (side * side);
         }
     double sum = 0;
-    for (int k = 0; k < steps; ++k)
+    for (const int k : indices(steps))
         if (area[k] > 0)
             sum += area[k] * mean_excess(Z0 + (job.indenter.shape->flat() ? 0 : (k + 0.5) * step),
                                          job.sigma, power);
@@ -50,8 +50,7 @@ double greenwood_force(const Job& job, double Z0) {
     const double density = 1 / (job.domain.mean_spacing * job.domain.mean_spacing),
                  k = 4.0 / 3.0 * job.indenter.E_star * std::sqrt(r);
     // Nayak's summits are on the average this much higher than the surface.
-    const double higher =
-        job.theory ? 4 * job.theory->m2 / std::sqrt(std::numbers::pi * job.theory->m4) : 0.0;
+    const double higher = job.theory ? 4 * job.theory->m2 / std::sqrt(pi * job.theory->m4) : 0.0;
     const double elastic = density * k * under_indenter(job, Z0 - higher, 1.5),
                  most = largest_pressure(job.settings);
     return std::isfinite(most) ? std::min(elastic, most * under_indenter(job, Z0, 0)) : elastic;
@@ -74,7 +73,7 @@ double area_under(const Job& job, double Z0) { return under_indenter(job, Z0, 0)
 
 // Number of grid points of the elements.
 double points_of_elements(const Job& job, double points_per_wave) {
-    if (job.heights) return static_cast<double>(job.heights->nx) * job.heights->ny;
+    if (job.heights) return double(job.heights->nx) * job.heights->ny;
     return job.spectrum ? std::pow(points_per_wave * job.spectrum->L_lambda_s, 2) : 0;
 }
 
@@ -105,7 +104,7 @@ double expected_candidates(const Job& job, double Z0) {
     if (job.given) {
         const Asperities& a = job.given->asperities;
         double count = 0;
-        for (std::size_t i = 0; i < a.size(); ++i)
+        for (const auto i : indices(a))
             count += job.indenter.clearance(a.x[i], a.y[i], a.z[i]) > Z0 ? 1 : 0;
         return count;
     }
@@ -122,8 +121,7 @@ double likely_separation(const Job& job, double level) {
     if (job.given) return -spread * smooth;
     const double area = under_indenter(job, Z0, 1.5) / mean_excess(Z0, job.sigma, 1.5);
     return Z0 - spread * std::min(smooth, 0.75 * level /
-                                              (job.indenter.E_star *
-                                               std::sqrt(1.5 * area / std::numbers::pi)));
+                                              (job.indenter.E_star * std::sqrt(1.5 * area / pi)));
 }
 
 ElementSize element_size(const Job& job, double Z0, double points_per_wave) {
@@ -154,7 +152,7 @@ public:
             if (flats && job_.settings.run.realizations == 1) stored += kPixel * contact;
         }
         constexpr double record = 0.3e6;
-        return most + more() + fields() + stored + record * static_cast<double>(job_.levels.size());
+        return most + more() + fields() + stored + record * double(job_.levels.size());
     }
 
 private:
@@ -198,7 +196,7 @@ private:
     }
 
     double groups_at_once(double under) const {
-        const double groups = std::ceil(static_cast<double>(job_.levels.size()) / kGroup);
+        const double groups = std::ceil(double(job_.levels.size()) / kGroup);
         const bool alone =
             groups < kFewestGroups || job_.settings.run.realizations > 1 || under > kFewPoints;
         return alone ? 1 : std::min(workers_, groups);
@@ -210,11 +208,11 @@ private:
         for (const AskedCurves& asked : job_.observe.curves)
             for (const PointField& f : asked.physics->fields)
                 if (f.along && has_field(job_.settings, f.name))
-                    values += static_cast<double>(asked.axis.size) - 1;
-        values += static_cast<double>(job_.settings.output.fields.size());
+                    values += double(asked.axis.size) - 1;
+        values += double(job_.settings.output.fields.size());
         const std::size_t levels =
             std::max<std::size_t>(1, job_.settings.output.field_levels.size());
-        return 2 * sizeof(double) * values * points_ * static_cast<double>(levels);
+        return 2 * sizeof(double) * values * points_ * double(levels);
     }
 
     const Job& job_;
@@ -228,7 +226,7 @@ double coated_asperities(const Job& job) {
     for (const double level : job.levels)
         values =
             std::max(values, std::pow(expected_candidates(job, likely_separation(job, level)), 2));
-    return sizeof(double) * std::min(values, static_cast<double>(kMostStoredValues));
+    return sizeof(double) * std::min(values, double(kMostStoredValues));
 }
 
 }  // namespace
@@ -260,7 +258,7 @@ double expected_megabytes(const Job& job, double workers) {
     if (!elements && (!coated || job.indenter.period.finite())) return 0;
     const double realization =
         elements ? ElementBytes(job, workers).realization() : coated_asperities(job);
-    const double realizations = static_cast<double>(job.settings.run.realizations),
+    const double realizations = double(job.settings.run.realizations),
                  at_once = std::max(1.0, std::min(workers, realizations));
     constexpr double element_program = 40e6, coated_program = 55e6;
     return 1e-6 * ((elements ? element_program : coated_program) + realization * at_once);

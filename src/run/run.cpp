@@ -169,7 +169,7 @@ void scale_levels(Case::Indentation& keys, double factor) {
 // Surfaces as long as the profile would have too many waves.
 double length_of_twins(const Measured& m) {
     constexpr double most = 1024;  // of the shortest waves
-    return std::min(m.Lx(), most * 2 * std::numbers::pi / m.spectrum.wavenumber.back());
+    return std::min(m.Lx(), most * 2 * pi / m.spectrum.wavenumber.back());
 }
 
 }  // namespace
@@ -188,9 +188,9 @@ std::string twins_text(const Job& job, const std::string& result) {
     twins.surface.source = Source::spectrum;
     twins.surface.file = result;
     twins.surface.L = L;
-    twins.surface.n = 2 * int(std::ceil(m.spectrum.wavenumber.back() * L / (2 * std::numbers::pi) *
-                                        (1 - 1e-12))) +
-                      2;  // one more point for heights of any distribution
+    twins.surface.n =
+        2 * int(std::ceil(m.spectrum.wavenumber.back() * L / (2 * pi) * (1 - 1e-12))) +
+        2;  // one more point for heights of any distribution
     if (m.profile) {
         twins.surface.aspect = keys.aspect;
         twins.surface.direction = keys.direction;

@@ -13,7 +13,7 @@ Asperities selected(const Asperities& all, const std::vector<std::size_t>& which
         std::vector<double>& to = some.*kAsperityColumns[c].values;
         if (from.empty()) return;
         to.resize(which.size());
-        for (std::size_t k = 0; k < which.size(); ++k) to[k] = from[which[k]];
+        for (const auto k : indices(which)) to[k] = from[which[k]];
     });
     return some;
 }
@@ -51,7 +51,7 @@ void validate(const Asperities& a, const std::function<std::string(std::size_t)>
         if (values.size() != n)
             refuse(std::string("asperities: ") + std::to_string(values.size()) + " values of " +
                    column.name + " for " + std::to_string(n) + " asperities");
-        for (std::size_t i = 0; i < n; ++i)
+        for (const auto i : indices(n))
             if (!usable(values[i]))
                 refuse(name(i) + ": " + column.name +
                        (std::isfinite(values[i]) ? " = " + text(values[i]) + ": " + kNumberBounds
@@ -59,7 +59,7 @@ void validate(const Asperities& a, const std::function<std::string(std::size_t)>
     }
     if (a.kappa1.size() != a.kappa2.size() || a.kappa1.size() != a.angle.size())
         refuse("asperities: kappa1, kappa2 and angle must be given together");
-    for (std::size_t i = 0; i < n; ++i) {
+    for (const auto i : indices(n)) {
         if (!usable_positive(a.radius[i]))
             refuse(name(i) + ": the radius " +
                    (a.radius[i] > 0 ? kPositiveBounds : "must be positive") + ", not " +

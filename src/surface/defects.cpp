@@ -19,10 +19,10 @@ class HoleProblem {
 public:
     explicit HoleProblem(const HeightMap& map) {
         std::vector<int> number(map.points(), -1);
-        for (int j = 0; j < map.ny; ++j)
-            for (int i = 0; i < map.nx; ++i)
+        for (const int j : indices(map.ny))
+            for (const int i : indices(map.nx))
                 if (std::isnan(map(i, j))) {
-                    number[map.index(i, j)] = static_cast<int>(points_.size());
+                    number[map.index(i, j)] = int(points_.size());
                     points_.push_back({i, j});
                 }
         // Weights, scaled so that the larger is 1, of the neighbours to the left, below, to the
@@ -65,24 +65,23 @@ public:
         constexpr double kTolerance = 1e-12;
         const std::size_t n = points_.size();
         std::vector<double> r(n), y(n), p, q(n);
-        for (std::size_t k = 0; k < n; ++k) r[k] = points_[k].source;
+        for (const auto k : indices(n)) r[k] = points_[k].source;
         const double goal = kTolerance * std::sqrt(dot(r, r));
         precondition(r, y);
         p = y;
         solution_.assign(n, 0.0);
         double rho = dot(r, y);
         for (std::size_t step = 0; step < 20 * n + 100 && std::sqrt(dot(r, r)) > goal; ++step) {
-            for (std::size_t k = 0; k < n; ++k)
-                q[k] = points_[k].diagonal * p[k] - around(k, p, 0, 4);
+            for (const auto k : indices(n)) q[k] = points_[k].diagonal * p[k] - around(k, p, 0, 4);
             const double length = rho / dot(p, q);
-            for (std::size_t k = 0; k < n; ++k) {
+            for (const auto k : indices(n)) {
                 solution_[k] += length * p[k];
                 r[k] -= length * q[k];
             }
             precondition(r, y);
             const double next = dot(r, y), share = next / rho;
             rho = next;
-            for (std::size_t k = 0; k < n; ++k) p[k] = y[k] + share * p[k];
+            for (const auto k : indices(n)) p[k] = y[k] + share * p[k];
         }
     }
 
@@ -142,7 +141,7 @@ private:
     // Points are numbered row by row, so the left and lower neighbours have lower numbers.
     void precondition(const std::vector<double>& r, std::vector<double>& y) const {
         constexpr double kOver = 1.9;
-        for (std::size_t k = 0; k < r.size(); ++k)
+        for (const auto k : indices(r))
             y[k] = kOver * (r[k] + around(k, y, 0, 2)) / points_[k].diagonal;
         for (std::size_t k = r.size(); k-- > 0;)
             y[k] += kOver * around(k, y, 2, 4) / points_[k].diagonal - (kOver - 1) * y[k];
@@ -158,8 +157,8 @@ private:
 
 long count_missing(const HeightMap& map) {
     long missing = 0;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) missing += std::isnan(map(i, j));
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx)) missing += std::isnan(map(i, j));
     return missing;
 }
 
@@ -177,16 +176,15 @@ std::vector<std::size_t> small_islands(const HeightMap& map) {
         known = 1;
     };
     const auto width = static_cast<std::size_t>(map.nx);
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) {
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx)) {
             if (seen[map.index(i, j)]) continue;
             group.clear();
             visit(i, j);
             for (std::size_t k = 0; k < group.size(); ++k)
                 for (int b = -1; b <= 1; ++b)
                     for (int a = -1; a <= 1; ++a)
-                        visit(static_cast<int>(group[k] % width) + a,
-                              static_cast<int>(group[k] / width) + b);
+                        visit(int(group[k] % width) + a, int(group[k] / width) + b);
             if (group.size() <= kMost) islands.insert(islands.end(), group.begin(), group.end());
         }
     return islands;
@@ -200,7 +198,7 @@ long remove_islands(HeightMap& map, double threshold) {
     HeightMap filled = map.copy();
     const auto width = static_cast<std::size_t>(map.nx);
     const auto at = [width](HeightMap& of, std::size_t k) -> double& {
-        return of.row(static_cast<int>(k / width))[k % width];
+        return of.row(int(k / width))[k % width];
     };
     for (const std::size_t k : islands) at(filled, k) = std::nan("");
     if (islands.empty() || count_missing(filled) == static_cast<long>(map.points())) return 0;
@@ -219,8 +217,8 @@ long remove_islands(HeightMap& map, double threshold) {
 Outliers remove_outliers(HeightMap& map, double times) {
     constexpr int kReach = 2;
     std::vector<double> distance(map.points()), around, present;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) {
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx)) {
             const double z = map(i, j);
             if (std::isnan(z)) continue;
             double& d = distance[map.index(i, j)];
@@ -258,12 +256,12 @@ Outliers remove_outliers(HeightMap& map, double times) {
     if (present.empty()) return {};
     // Of normal differences 90 % are below 1.645 standard deviations; rounding has 12^(-1/2) of its
     // step.
-    const auto ninth = present.begin() +
-                       static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(present.size() - 1));
+    const auto ninth =
+        present.begin() + static_cast<std::ptrdiff_t>(0.9 * double(present.size() - 1));
     std::nth_element(present.begin(), ninth, present.end());
     Outliers found{0, 0, times * std::max(*ninth / 1.645, height_step(map) / std::sqrt(12.0))};
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) {
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx)) {
             if (std::isnan(map(i, j)) || !(distance[map.index(i, j)] > found.threshold)) continue;
             map.row(j)[i] = std::numeric_limits<double>::quiet_NaN();
             ++found.count;
@@ -289,8 +287,8 @@ void keep_depths(std::vector<std::uint8_t>& filled, int nx, int ny, int steps) {
     const auto width = static_cast<std::size_t>(nx);
     for (int step = 0; step < steps && !filled.empty(); ++step) {
         const std::vector<std::uint8_t> all = filled;
-        for (int j = 0; j < ny; ++j)
-            for (int i = 0; i < nx; ++i) {
+        for (const int j : indices(ny))
+            for (const int i : indices(nx)) {
                 const std::size_t at =
                     static_cast<std::size_t>(j) * width + static_cast<std::size_t>(i);
                 if ((i > 0 && !all[at - 1]) || (i < nx - 1 && !all[at + 1]) ||
@@ -329,9 +327,7 @@ double step_of_pairs(const HeightMap& map, int di, int dj) {
         other += std::abs(steps - std::round(steps)) > 1e-3 * std::max(1.0, steps);
     });
     constexpr double most_other = 1e-3;
-    const auto share = [&](long of) {
-        return static_cast<double>(of) / static_cast<double>(std::max(pairs, 1L));
-    };
+    const auto share = [&](long of) { return double(of) / double(std::max(pairs, 1L)); };
     return share(equal) >= few && share(other) <= most_other ? least : 0.0;
 }
 
@@ -359,14 +355,13 @@ void damp_waves(HeightMap& map, bool periodic, const char* purpose,
     }
     if (!forward || !back)
         throw Error(Failure::internal, std::string(purpose) + ": FFTW made no plan");
-    for (int j = 0; j < map.ny; ++j)
+    for (const int j : indices(map.ny))
         std::copy_n(map.row(j), nx, z + static_cast<std::size_t>(j) * nx);
     fftw_execute(forward.get());
-    const double scale =
-        1.0 / ((periodic ? 1.0 : 4.0) * static_cast<double>(nx) * static_cast<double>(ny));
+    const double scale = 1.0 / ((periodic ? 1.0 : 4.0) * double(nx) * double(ny));
     damp(z, scale);
     fftw_execute(back.get());
-    for (int j = 0; j < map.ny; ++j)
+    for (const int j : indices(map.ny))
         std::copy_n(z + static_cast<std::size_t>(j) * nx, nx, map.row(j));
 }
 
@@ -375,24 +370,22 @@ void smooth_rounded(HeightMap& map, double step) {
     const Form plane = detrend(map, Detrend::plane);  // its cosine series would hide the rounding
     // Mean power on rings of one wavenumber each; the power of the rounding is the same on all
     // rings.
-    const double points = static_cast<double>(nx * ny),
-                 shorter = static_cast<double>(std::min(nx, ny));
+    const double points = double(nx * ny), shorter = double(std::min(nx, ny));
     const auto ring = [&](std::size_t i, std::size_t j) {
         return static_cast<std::size_t>(
-            std::lround(shorter * std::hypot(static_cast<double>(i) / static_cast<double>(nx),
-                                             static_cast<double>(j) / static_cast<double>(ny))));
+            std::lround(shorter * std::hypot(double(i) / double(nx), double(j) / double(ny))));
     };
     std::vector<double> power(ring(nx, ny) + 1), modes(power.size()), gain(power.size(), 0.0);
     constexpr double safety = 1.5;  // the power of the rounding on one ring scatters
     const double rounding = safety * 4 * points * step * step / 12;
     constexpr std::size_t near = 2;  // neighbouring rings on either side included in the mean
     damp_waves(map, false, "the cosine series of a map", [&](double* series, double scale) {
-        for (std::size_t j = 0; j < ny; ++j)
-            for (std::size_t i = 0; i < nx; ++i) {
+        for (const auto j : indices(ny))
+            for (const auto i : indices(nx)) {
                 power[ring(i, j)] += series[j * nx + i] * series[j * nx + i];
                 ++modes[ring(i, j)];
             }
-        for (std::size_t k = 0; k < power.size(); ++k) {
+        for (const auto k : indices(power)) {
             double sum = 0, count = 0;
             for (std::size_t l = k - std::min(k, near); l <= std::min(k + near, power.size() - 1);
                  ++l) {
@@ -402,11 +395,11 @@ void smooth_rounded(HeightMap& map, double step) {
             gain[k] = std::max(0.0, 1 - rounding * count / std::max(sum, 1e-300));
             if (k > 0 && gain[k] == 0) break;  // all shorter waves are rounding noise
         }
-        for (std::size_t j = 0; j < ny; ++j)
-            for (std::size_t i = 0; i < nx; ++i) series[j * nx + i] *= gain[ring(i, j)] * scale;
+        for (const auto j : indices(ny))
+            for (const auto i : indices(nx)) series[j * nx + i] *= gain[ring(i, j)] * scale;
     });
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i)
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx))
             map.row(j)[i] += plane.level + plane.slope_x * (i - 0.5 * (map.nx - 1)) * map.dx +
                              plane.slope_y * (j - 0.5 * (map.ny - 1)) * map.dy;
 }
@@ -561,11 +554,11 @@ Breaks find_breaks(const HeightMap& map, double height_step) {
                        {},
                        std::vector<int>(static_cast<std::size_t>(nx), 0),
                        std::vector<int>(static_cast<std::size_t>(ny), 0)};
-    for (int j = 0; j < ny; ++j)
-        for (int i = 0; i < nx; ++i) search.visit(i, j);
+    for (const int j : indices(ny))
+        for (const int i : indices(nx)) search.visit(i, j);
     const auto seam = [](const std::vector<int>& counts, int length) {
         const auto most = std::max_element(counts.begin(), counts.end());
-        return 2 * *most > length ? static_cast<int>(most - counts.begin()) : -1;
+        return 2 * *most > length ? int(most - counts.begin()) : -1;
     };
     if (ny > 1) breaks.seam_column = seam(search.in_column, ny);
     if (ny > 1) breaks.seam_row = seam(search.in_row, nx);
@@ -603,7 +596,7 @@ void raise_pits(HeightMap& map, const Breaks& breaks) {
             }
             raised.push_back(z);
         }
-        for (std::size_t k = 0; k < raised.size(); ++k)
+        for (const auto k : indices(raised))
             map.row(breaks.pits[k].j)[breaks.pits[k].i] = raised[k];
     }
 }

@@ -14,7 +14,7 @@ constexpr int kFewestRows = 64;  // rows of a share; the rows beside it are synt
 double lay_share(const Asperities& summits) {
     std::complex<double> directed = 0;
     double all = 0;
-    for (std::size_t i = 0; i < summits.size(); ++i) {
+    for (const auto i : indices(summits)) {
         const double elongation = std::log(summits.kappa1[i] / summits.kappa2[i]);
         directed += std::polar(elongation, 2 * summits.angle[i]);
         all += elongation;
@@ -23,8 +23,7 @@ double lay_share(const Asperities& summits) {
     // with correlation lengths in the ratio 1:1.6 reach `whole`. One summit alone is a lay of its
     // own: there the quartic around its ellipse is right. Found by hand; checked by test_elongated.
     constexpr double whole = 0.75;
-    const double none =
-        std::clamp(0.3 * std::sqrt(10 / static_cast<double>(summits.size())), 0.3, 0.7);
+    const double none = std::clamp(0.3 * std::sqrt(10 / double(summits.size())), 0.3, 0.7);
     return all > 0 ? std::clamp((std::abs(directed) / all - none) / (whole - none), 0.0, 1.0) : 0;
 }
 
@@ -54,7 +53,7 @@ Asperities join(std::vector<RefinedSummits>& parts, bool refined, int nx, int ny
     // isotropic surfaces summits are elongated by chance in all directions; there the plain
     // biharmonic agrees better with boundary elements (study in input/trust).
     const double share = lay_share(all.found);
-    for (std::size_t i = 0; i < all.from.size(); ++i)
+    for (const auto i : indices(all.from))
         all.found.biharmonic[i] += share * (all.from[i].elongated - all.found.biharmonic[i]);
     return std::move(all.found);
 }
@@ -64,13 +63,11 @@ Asperities join(std::vector<RefinedSummits>& parts, bool refined, int nx, int ny
 std::vector<RefinedSummits> share_rows(int rows, int threads,
                                        const std::function<void(RefinedSummits&, int, int)>& part) {
     const int shares = threads > 1 ? std::clamp(rows / kFewestRows, 1, 8 * threads) : 1;
-    std::vector<RefinedSummits> parts(static_cast<std::size_t>(shares));
+    std::vector<RefinedSummits> parts(at(shares));
     parallel_for(shares, 1, threads, [&](int t) {
-        const auto bound = [&](int k) {
-            return static_cast<int>(static_cast<std::int64_t>(rows) * k / shares);
-        };
+        const auto bound = [&](int k) { return int(static_cast<std::int64_t>(rows) * k / shares); };
         stopping_point();
-        part(parts[static_cast<std::size_t>(t)], bound(t), bound(t + 1));
+        part(parts[at(t)], bound(t), bound(t + 1));
     });
     return parts;
 }
@@ -83,8 +80,8 @@ void visit_while_making(const RowSource& source, int margin, int rows_held, int 
                         Visit visit) {
     const int n = source.n();
     const std::ptrdiff_t stride = (n + 7) / 8 * 8 + 8;
-    const std::unique_ptr<double[], HeightMap::Free> window(allocate_doubles(
-        static_cast<std::size_t>(rows_held * stride), "rows of a synthetic surface"));
+    const std::unique_ptr<double[], HeightMap::Free> window(
+        allocate_doubles(at(rows_held * stride), "rows of a synthetic surface"));
     RowSource::Scratch scratch(source);
     int held = 0;               // rows in the window; the first is row next - held
     int next = first - margin;  // next row to synthesise
@@ -105,18 +102,16 @@ void visit_while_making(const RowSource& source, int margin, int rows_held, int 
 // Exchanges x and y of summits of a square of side L, and orders them by the rows of n that are
 // their y now.
 Asperities mirrored(const Asperities& found, double L, int n) {
-    std::vector<std::size_t> row, first(static_cast<std::size_t>(n) + 1), order(found.size());
+    std::vector<std::size_t> row, first(at(n) + 1), order(found.size());
     for (const double x : found.x) {
-        row.push_back(
-            static_cast<std::size_t>(std::clamp(static_cast<int>(x / L * n + 0.5), 0, n - 1)));
+        row.push_back(at(std::clamp(int(x / L * n + 0.5), 0, n - 1)));
         ++first[row.back() + 1];
     }
     std::partial_sum(first.begin(), first.end(), first.begin());
-    for (std::size_t i = 0; i < found.size(); ++i) order[first[row[i]]++] = i;
+    for (const auto i : indices(found)) order[first[row[i]]++] = i;
     Asperities all = selected(found, order);
     std::swap(all.x, all.y);
-    for (double& angle : all.angle)
-        angle = angle < 0 ? -std::numbers::pi / 2 - angle : std::numbers::pi / 2 - angle;
+    for (double& angle : all.angle) angle = angle < 0 ? -pi / 2 - angle : pi / 2 - angle;
     return all;
 }
 
@@ -141,11 +136,11 @@ SummitClimber::Rows rows_about(const HeightMap& map, int j) {
 
 SummitCount counted(const Asperities& all, long saddles, long repeated) {
     double sum_g = 0, sum_a = 0;
-    for (std::size_t i = 0; i < all.size(); ++i) {
+    for (const auto i : indices(all)) {
         sum_g += std::sqrt(all.kappa1[i] * all.kappa2[i]);
         sum_a += 0.5 * (all.kappa1[i] + all.kappa2[i]);
     }
-    const double n = all.size() > 0 ? static_cast<double>(all.size()) : 1.0;
+    const double n = all.size() > 0 ? double(all.size()) : 1.0;
     return {static_cast<long>(all.size()), saddles, repeated, sum_g / n, sum_a / n};
 }
 

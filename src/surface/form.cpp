@@ -17,13 +17,13 @@ struct Normal {
     std::array<double, kUnknowns> b{};
 
     void add(const std::array<double, kUnknowns>& basis, double value) {
-        for (int i = 0; i < kUnknowns; ++i) {
+        for (const int i : indices(kUnknowns)) {
             for (int j = i; j < kUnknowns; ++j) a[i][j] += basis[i] * basis[j];
             b[i] += basis[i] * value;
         }
     }
     void add(const Normal& other) {
-        for (int i = 0; i < kUnknowns; ++i) {
+        for (const int i : indices(kUnknowns)) {
             for (int j = i; j < kUnknowns; ++j) a[i][j] += other.a[i][j];
             b[i] += other.b[i];
         }
@@ -36,18 +36,18 @@ struct Normal {
         constexpr double kSingular = 1e-11;
         std::array<std::array<double, kUnknowns>, kUnknowns> l{};
         std::array<double, kUnknowns> x{};
-        for (int j = 0; j < kUnknowns; ++j)
+        for (const int j : indices(kUnknowns))
             for (int i = j; i < kUnknowns; ++i) {
                 double sum = a[j][i];
-                for (int k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
+                for (const int k : indices(j)) sum -= l[i][k] * l[j][k];
                 if (i == j && !(sum > kSingular * a[j][j]))
                     refuse("the points of the map do not determine a " + std::string(form) +
                            ": too few of them, or all on one line");
                 l[i][j] = i == j ? std::sqrt(sum) : sum / l[j][j];
             }
-        for (int i = 0; i < kUnknowns; ++i) {
+        for (const int i : indices(kUnknowns)) {
             double sum = b[i];
-            for (int k = 0; k < i; ++k) sum -= l[i][k] * x[k];
+            for (const int k : indices(i)) sum -= l[i][k] * x[k];
             x[i] = sum / l[i][i];
         }
         for (int i = kUnknowns; i-- > 0;) {
@@ -77,9 +77,9 @@ template <int kUnknowns, class Basis, class Value>
 std::array<double, kUnknowns> fit(const HeightMap& map, const Frame& frame, const char* form,
                                   Basis basis, Value value) {
     Normal<kUnknowns> all;
-    for (int j = 0; j < map.ny; ++j) {
+    for (const int j : indices(map.ny)) {
         Normal<kUnknowns> row;
-        for (int i = 0; i < map.nx; ++i) {
+        for (const int i : indices(map.nx)) {
             const double z = value(i, j);
             if (!std::isnan(z)) row.add(basis(frame.u(i), frame.v(j)), z);
         }
@@ -101,20 +101,20 @@ std::array<double, 6> subtract_polynomial(HeightMap& map, const Frame& frame, co
         return some;
     };
     std::array<double, 6> total{};
-    for (int round = 0; round < 2; ++round) {
+    for (const int round : indices(2)) {
         const double below =
             round == 0 ? level
                        : 0;  // subtracted first, so that a large level does not cause cancellation
         const auto c = fit<kUnknowns>(map, frame, form, basis,
                                       [&](int i, int j) { return map(i, j) - below; });
-        for (int j = 0; j < map.ny; ++j)
-            for (int i = 0; i < map.nx; ++i) {
+        for (const int j : indices(map.ny))
+            for (const int i : indices(map.nx)) {
                 const auto f = basis(frame.u(i), frame.v(j));
                 double sum = 0;
-                for (int k = 0; k < kUnknowns; ++k) sum += c[k] * f[k];
+                for (const int k : indices(kUnknowns)) sum += c[k] * f[k];
                 map.row(j)[i] = (map(i, j) - below) - sum;
             }
-        for (int k = 0; k < kUnknowns; ++k) total[k] += c[k];
+        for (const int k : indices(kUnknowns)) total[k] += c[k];
     }
     return total;
 }
@@ -218,8 +218,8 @@ Form detrend(HeightMap& map, Detrend how) {
     if (std::isnan(level)) refuse("all points of the map are missing");
     if (how != Detrend::none) form.level = level;
     if (how == Detrend::mean)
-        for (int j = 0; j < map.ny; ++j)
-            for (int i = 0; i < map.nx; ++i) map.row(j)[i] -= level;
+        for (const int j : indices(map.ny))
+            for (const int i : indices(map.nx)) map.row(j)[i] -= level;
     const Frame frame(map);
     const double a = frame.scale;
     const bool row = map.ny == 1;
@@ -245,8 +245,8 @@ Form detrend(HeightMap& map, Detrend how) {
         form.zyy = 2 * c[5] / (a * a);
     } else if (how == Detrend::sphere) {
         const Sphere s = fit_sphere(map, frame, level);
-        for (int j = 0; j < map.ny; ++j)
-            for (int i = 0; i < map.nx; ++i)
+        for (const int j : indices(map.ny))
+            for (const int i : indices(map.nx))
                 map.row(j)[i] = (map(i, j) - level) - s(frame.u(i) * a, frame.v(j) * a);
         form.level += s.level;
         form.slope_x = s.p;
@@ -269,11 +269,10 @@ namespace {
 // (cosine transform), or whole waves if periodic, in the order of FFTW's half-complex format (r0,
 // r1, ..., i2, i1). The filter is a product of a function of kx and one of ky.
 std::vector<double> transmissions(int n, double step, double cutoff, bool periodic) {
-    std::vector<double> t(static_cast<std::size_t>(n));
-    for (int i = 0; i < n; ++i) {
-        const double k = periodic ? 2 * std::numbers::pi * std::min(i, n - i) / (n * step)
-                                  : std::numbers::pi * i / (n * step);
-        t[static_cast<std::size_t>(i)] = gaussian_transmission(cutoff, k);
+    std::vector<double> t(at(n));
+    for (const int i : indices(n)) {
+        const double k = periodic ? 2 * pi * std::min(i, n - i) / (n * step) : pi * i / (n * step);
+        t[at(i)] = gaussian_transmission(cutoff, k);
     }
     return t;
 }
@@ -281,7 +280,7 @@ std::vector<double> transmissions(int n, double step, double cutoff, bool period
 }  // namespace
 
 double gaussian_transmission(double cutoff, double k) {
-    const double ratio = cutoff * k / (2 * std::numbers::pi);
+    const double ratio = cutoff * k / (2 * pi);
     return std::exp2(-ratio * ratio);  // exp(-pi alpha^2 x^2) with pi alpha^2 = ln 2
 }
 

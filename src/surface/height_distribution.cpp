@@ -10,7 +10,7 @@ namespace {
 // Heights are tabulated at normal scores from -kEnd to kEnd and extrapolated linearly beyond (one
 // point in 10^9).
 constexpr double kEnd = 6, kStep = 0.005;
-constexpr int kValues = 2 * static_cast<int>(kEnd / kStep) + 1;
+constexpr int kValues = 2 * int(kEnd / kStep) + 1;
 
 double score(int i) { return -kEnd + i * kStep; }
 
@@ -21,7 +21,7 @@ struct Shape {
 // Moments by the trapezoidal rule, which converges exponentially under the normal density.
 Shape shape_of(const HeightDistribution& of) {
     constexpr double end = 9.5, step = 0.025;
-    constexpr int most = static_cast<int>(end / step);
+    constexpr int most = int(end / step);
     double total = 0, m1 = 0, m2 = 0, m3 = 0, m4 = 0;
     const double at = of(0.0);  // near the mean, to avoid cancellation
     for (int i = -most; i <= most; ++i) {
@@ -54,12 +54,12 @@ HeightDistribution HeightDistribution::of_quantiles(const std::vector<double>& s
     if (!rising)
         bad_input("the distribution of heights: heights must increase with the normal score");
     std::vector<double> values(kValues);
-    for (int i = 0; i < kValues; ++i) {
+    for (const int i : indices(kValues)) {
         const double u = std::clamp(score(i), scores.front(), scores.back());
-        const auto k = static_cast<std::size_t>(
-            std::upper_bound(scores.begin() + 1, scores.end() - 1, u) - scores.begin());
-        values[static_cast<std::size_t>(i)] = std::lerp(
-            heights[k - 1], heights[k], (u - scores[k - 1]) / (scores[k] - scores[k - 1]));
+        const auto k =
+            at(std::upper_bound(scores.begin() + 1, scores.end() - 1, u) - scores.begin());
+        values[at(i)] = std::lerp(heights[k - 1], heights[k],
+                                  (u - scores[k - 1]) / (scores[k] - scores[k - 1]));
     }
     HeightDistribution distribution(std::move(values));
     const Shape shape = shape_of(distribution);
@@ -69,14 +69,14 @@ HeightDistribution HeightDistribution::of_quantiles(const std::vector<double>& s
 
 std::vector<double> quantiles(std::vector<double> heights, const std::vector<double>& scores) {
     std::sort(heights.begin(), heights.end());
-    const double count = static_cast<double>(heights.size());
+    const double count = double(heights.size());
     std::vector<double> found;
     for (const double u : scores) {
         const double p = 0.5 * boost::math::erfc(-u / std::numbers::sqrt2);
         const double place = std::clamp(p * count - 0.5, 0.0, count - 1);
-        const auto k = static_cast<std::size_t>(place);
-        found.push_back(std::lerp(heights[k], heights[std::min(k + 1, heights.size() - 1)],
-                                  place - static_cast<double>(k)));
+        const auto k = at(place);
+        found.push_back(
+            std::lerp(heights[k], heights[std::min(k + 1, heights.size() - 1)], place - double(k)));
     }
     return found;
 }
@@ -88,8 +88,8 @@ HeightShape HeightDistribution::shape() const {
 
 double HeightDistribution::operator()(double normal) const {
     const double place = (normal + kEnd) / kStep;
-    const int k = std::clamp(static_cast<int>(place), 0, kValues - 2);
-    const auto i = static_cast<std::size_t>(k);
+    const int k = std::clamp(int(place), 0, kValues - 2);
+    const auto i = at(k);
     return values_[i] + (values_[i + 1] - values_[i]) * (place - k);
 }
 

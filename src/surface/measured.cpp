@@ -10,14 +10,14 @@ namespace {
 constexpr double kMuchByFilled = 0.1;
 
 void refuse_missing(const HeightMap& map, long missing) {
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i)
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx))
             if (std::isnan(map(i, j)))
                 bad_input(
                     format("%ld of %.0f points are missing, the first in column %d of row %d, "
                            "counted from 0 with y upwards; "
                            "surface%%missing = 'fill' fills them",
-                           missing, static_cast<double>(map.points()), i, j));
+                           missing, double(map.points()), i, j));
 }
 
 // Histogram of the heights in 60 bins from -5 to 5 Sq; the few heights beyond are ignored.
@@ -27,15 +27,14 @@ void count_heights(const HeightMap& map, Measured& m) {
     m.height_bin = 2 * kReach * m.parameters.sq / kBins;
     m.height_pdf.assign(kBins, 0.0);
     if (!(m.height_bin > 0)) return;
-    const auto points = static_cast<double>(map.points());
+    const auto points = double(map.points());
     double mean = 0;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) mean += map(i, j) / points;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) {
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx)) mean += map(i, j) / points;
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx)) {
             const double bin = std::floor((map(i, j) - mean) / m.height_bin + 0.5 * kBins);
-            if (bin >= 0 && bin < kBins)
-                m.height_pdf[static_cast<std::size_t>(bin)] += 1 / (points * m.height_bin);
+            if (bin >= 0 && bin < kBins) m.height_pdf[at(bin)] += 1 / (points * m.height_bin);
         }
 }
 
@@ -107,10 +106,10 @@ void measure_and_fit(const HeightMap& map, const Isotropy& slopes, Measured& m) 
     m.shortest_wave = 2 * m.step();
     if (can_fit(m.spectrum)) {
         m.fit = fit_self_affine(m.spectrum);
-        m.shortest_wave = 2 * std::numbers::pi / m.fit->ks.value;
+        m.shortest_wave = 2 * pi / m.fit->ks.value;
     }
     keep_depths(m.filled, m.nx, m.ny,
-                std::max(1, static_cast<int>(std::lround(m.shortest_wave / (8 * m.step())))));
+                std::max(1, int(std::lround(m.shortest_wave / (8 * m.step())))));
     if (can_fit(stretched)) {
         m.fit = fit_self_affine(stretched);
         m.fit->aspect = aspect;
@@ -151,8 +150,8 @@ void measure_profile(const HeightMap& map, const MeasureOptions& options, Measur
     p.fit = fit_profile(isotropic);
     m.fit = p.fit->surface;
     m.fit->aspect = options.aspect;
-    m.fit->direction = options.direction * std::numbers::pi / 180;
-    m.shortest_wave = 2 * std::numbers::pi / (m.fit->ks.value * p.stretch);
+    m.fit->direction = options.direction * pi / 180;
+    m.shortest_wave = 2 * pi / (m.fit->ks.value * p.stretch);
     MeasuredSpectrum& s = m.spectrum;
     if (options.by_inversion) {
         s.wavenumber = isotropic.wavenumber;
@@ -180,7 +179,7 @@ std::shared_ptr<MeasuredProfile> trace_of(const HeightMap& map) {
 
 void filter_profile(HeightMap& map, double cutoff_long, Measured& m) {
     remove_long_waves(map, cutoff_long);
-    cut_ends(map, static_cast<int>(std::ceil(0.5 * cutoff_long / map.dx)), m.filled);
+    cut_ends(map, int(std::ceil(0.5 * cutoff_long / map.dx)), m.filled);
     static_cast<PointGrid&>(m) = map;
     m.filtered = roughness(map);
 }
@@ -197,14 +196,14 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
         bad_input(format("steps of %.6g x %.6g: one is more than %.0f times the other", map.dx,
                          map.dy, most_unlike));
     m.missing = count_missing(map);
-    const auto points = static_cast<double>(map.points());
-    if (m.missing > 0 && static_cast<double>(m.missing) == points)
+    const auto points = double(map.points());
+    if (m.missing > 0 && double(m.missing) == points)
         bad_input("all points of the map are missing");
     if (m.missing > 0 && options.missing == Missing::refuse) refuse_missing(map, m.missing);
     m.outlier_times = options.outliers;
     if (options.outliers > 0) m.outliers = remove_outliers(map, options.outliers);
     m.missing += m.outliers.count;
-    m.missing_share = static_cast<double>(m.missing) / points;
+    m.missing_share = double(m.missing) / points;
     if (!(options.filter_cutoff > 0)) m.height_step = height_step(map);
     m.as_read = roughness(map);
     const std::shared_ptr<MeasuredProfile> profile = trace_of(map);
@@ -212,7 +211,7 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     for (int i = 0; profile && i < map.nx; ++i)
         profile->form.push_back(profile->trace[std::size_t(i)] - map(i, 0));
     m.filled = fill_missing(map);
-    for (int j = 0; j < map.ny; ++j)
+    for (const int j : indices(map.ny))
         if (!std::all_of(map.row(j), map.row(j) + map.nx,
                          [](double z) { return std::isfinite(z); }))
             bad_input(
@@ -260,8 +259,8 @@ void tell_points(const Measured& m, const char* l, std::vector<std::string>& lin
         lines.push_back(format(
             "warning: %ld points (%.3g %%) have the height %s: if that means a missing point, "
             "set surface%%missing_value = %s",
-            m.coded, 100 * static_cast<double>(m.coded) / static_cast<double>(m.points()),
-            text_of(*m.code).c_str(), text_of(*m.code).c_str()));
+            m.coded, 100 * double(m.coded) / double(m.points()), text_of(*m.code).c_str(),
+            text_of(*m.code).c_str()));
     if (m.outlier_times > 0)
         lines.push_back(format(
             "outliers: %ld points differ by more than %.4g %s (%.3g standard deviations) "
@@ -291,8 +290,7 @@ void tell_points(const Measured& m, const char* l, std::vector<std::string>& lin
 }
 
 void tell_form_and_heights(const Measured& m, const char* l, std::vector<std::string>& lines) {
-    std::string form =
-        std::string("form '") + kDetrendNames[static_cast<std::size_t>(m.form.how)] + "': ";
+    std::string form = std::string("form '") + kDetrendNames[at(m.form.how)] + "': ";
     if (m.profile && m.form.how == Detrend::plane)
         form += format("line of slope %.4g; ", m.form.slope_x);
     else if (m.form.how == Detrend::plane || m.form.how == Detrend::quadratic)
@@ -325,7 +323,7 @@ void tell_spectrum(const Measured& m, const char* l, std::vector<std::string>& l
             "spectrum: not that of a self-affine surface (hurst and its wavelengths are unknown)");
     else if (m.fit) {
         const SelfAffineFit& fit = *m.fit;
-        const double two_pi = 2 * std::numbers::pi;
+        const double two_pi = 2 * pi;
         const char* const plateau =
             !fit.kl_seen        ? ""
             : !fit.plateau_seen ? " (too few long waves to tell whether there is a plateau above)"
@@ -397,10 +395,10 @@ void tell_profile(const Measured& m, const char* l, std::vector<std::string>& li
         "(form and filter take longer ones), rms slope of a profile %.4g +- %.2g, 90 %% intervals",
         m.fit->aspect == 1 ? "isotropic"
                            : format("lay with aspect %.3g at %.4g degrees, assumed", m.fit->aspect,
-                                    m.fit->direction * 180 / std::numbers::pi)
+                                    m.fit->direction * 180 / pi)
                                  .c_str(),
-        fit.sigma.value, fit.sigma.error, l, 2 * std::numbers::pi / profile.spectrum.lowest, l,
-        fit.slope.value, fit.slope.error));
+        fit.sigma.value, fit.sigma.error, l, 2 * pi / profile.spectrum.lowest, l, fit.slope.value,
+        fit.slope.error));
     if (fit.surface.hurst.value > 0.99 * kMostHurst)
         lines.push_back(
             "warning: the spectrum falls faster than that of a self-affine surface, as where the "

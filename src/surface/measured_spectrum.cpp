@@ -8,13 +8,10 @@ namespace rsc {
 std::array<double, kWindowReach + 1> squared_transform(bool periodic) {
     std::array<double, kWindowReach + 1> window{};
     for (int u = 0; u <= kWindowReach; ++u) {
-        const auto sinc = [](double x) {
-            return x == 0 ? 1.0 : std::sin(std::numbers::pi * x) / (std::numbers::pi * x);
-        };
+        const auto sinc = [](double x) { return x == 0 ? 1.0 : std::sin(pi * x) / (pi * x); };
         const double amplitude =
             0.5 * sinc(0.5 * u) + 0.25 * (sinc(0.5 * u - 1) + sinc(0.5 * u + 1));
-        window[static_cast<std::size_t>(u)] =
-            periodic ? (u == 0 ? 1.0 : 0.0) : amplitude * amplitude;
+        window[at(u)] = periodic ? (u == 0 ? 1.0 : 0.0) : amplitude * amplitude;
     }
     return window;
 }
@@ -22,16 +19,15 @@ std::array<double, kWindowReach + 1> squared_transform(bool periodic) {
 namespace {
 
 std::vector<double> hann(int n, bool none) {
-    std::vector<double> w(static_cast<std::size_t>(n), 1.0);
+    std::vector<double> w(at(n), 1.0);
     if (none) return w;
-    for (int i = 0; i < n; ++i)
-        w[static_cast<std::size_t>(i)] = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * (i + 0.5) / n);
+    for (const int i : indices(n)) w[at(i)] = 0.5 - 0.5 * std::cos(2 * pi * (i + 0.5) / n);
     return w;
 }
 
 // The nearest whole number. On maps with commensurate sides many modes lie midway between two
 // rings: rounding must not divide them.
-std::size_t nearest(double q) { return static_cast<std::size_t>(q * (1 + 1e-12) + 0.5); }
+std::size_t nearest(double q) { return at(q * (1 + 1e-12) + 0.5); }
 
 // Accumulates the power of modes by ring and angle.
 class Plane {
@@ -53,19 +49,18 @@ public:
     }
     void add(std::size_t ring, double kx, double ky, double power, double copies) {
         if (ring == 0) return;
-        const double turn = std::atan2(ky, kx) / std::numbers::pi * kAngles;
-        const auto angle = static_cast<std::size_t>(std::floor(turn + 0.5) + kAngles) % kAngles;
+        const double turn = std::atan2(ky, kx) / pi * kAngles;
+        const auto angle = at(std::floor(turn + 0.5) + kAngles) % kAngles;
         power_[group_[ring] * kAngles + angle] += power;
         count_[group_[ring] * kAngles + angle] += copies;
     }
     void finish(MeasuredSpectrum& s, double ring, double scale) const {
         for (std::size_t g = 0; g < first_.size(); ++g) {
-            const double middle =
-                std::sqrt(static_cast<double>(first_[g]) * static_cast<double>(last_[g]));
+            const double middle = std::sqrt(double(first_[g]) * double(last_[g]));
             s.plane_wavenumber.push_back(middle * ring);
-            for (std::size_t a = 0; a < kAngles; ++a) {
+            for (const auto a : indices(kAngles)) {
                 // Angles spanned by two modes; the half circle has middle*pi modes.
-                auto wide = static_cast<std::size_t>(kAngles / (std::numbers::pi * middle));
+                auto wide = at(kAngles / (pi * middle));
                 double power = 0, count = 0;
                 for (; count == 0 && wide < kAngles; ++wide) {
                     const std::size_t reach = std::min(wide, kAngles / 2 - 1);
@@ -101,9 +96,7 @@ public:
     Buffer modes() {
         const int nx = map_.nx, ny = map_.ny;
         const double mean = subtracted_mean();
-        Buffer buffer(
-            allocate_doubles(2 * static_cast<std::size_t>(columns()) * static_cast<std::size_t>(ny),
-                             "the spectrum of a height map"));
+        Buffer buffer(allocate_doubles(2 * at(columns()) * at(ny), "the spectrum of a height map"));
         double* const z = buffer.get();
         FftwPlan plan;
         {
@@ -112,8 +105,8 @@ public:
                 fftw_plan_dft_r2c_2d(ny, nx, z, reinterpret_cast<fftw_complex*>(z), FFTW_ESTIMATE));
         }
         if (!plan) throw Error(Failure::internal, "spectrum: FFTW made no plan");
-        for (int j = 0; j < ny; ++j)
-            for (int i = 0; i < nx; ++i)
+        for (const int j : indices(ny))
+            for (const int i : indices(nx))
                 z[static_cast<std::ptrdiff_t>(j) * 2 * columns() + i] =
                     weight(i, j) * (map_(i, j) - mean);
         fftw_execute(plan.get());
@@ -121,17 +114,15 @@ public:
     }
 
 private:
-    double weight(int i, int j) const {
-        return wx_[static_cast<std::size_t>(i)] * wy_[static_cast<std::size_t>(j)];
-    }
+    double weight(int i, int j) const { return wx_[at(i)] * wy_[at(j)]; }
     // The windowed mean is subtracted, because the window turns a constant into a wave as long as
     // the map.
     double subtracted_mean() {
         double sum = 0, weights = 0;
         squares_ = 0;
-        for (int j = 0; j < map_.ny; ++j) {
+        for (const int j : indices(map_.ny)) {
             double row = 0, row_w = 0, row_s = 0;
-            for (int i = 0; i < map_.nx; ++i) {
+            for (const int i : indices(map_.nx)) {
                 const double w = weight(i, j);
                 row += w * map_(i, j);
                 row_w += w;
@@ -156,16 +147,15 @@ struct Rings {
     std::size_t count;
 
     Rings(const HeightMap& map, double aspect, double direction)
-        : step_x(2 * std::numbers::pi / map.Lx()),
-          step_y(2 * std::numbers::pi / map.Ly()),
+        : step_x(2 * pi / map.Lx()),
+          step_y(2 * pi / map.Ly()),
           ring(std::min(step_x, step_y)),
           stretch(std::sqrt(aspect)),
           along(std::cos(direction)),
           aside(std::sin(direction)) {
         // Up to this stretched wavenumber the grid holds waves of all directions.
-        const double nyquist = std::numbers::pi / (std::max(map.dx, map.dy) * stretch);
-        count =
-            static_cast<std::size_t>(std::max(1.0, std::floor(nyquist / ring * (1 + 1e-12) + 0.5)));
+        const double nyquist = pi / (std::max(map.dx, map.dy) * stretch);
+        count = at(std::max(1.0, std::floor(nyquist / ring * (1 + 1e-12) + 0.5)));
     }
 
     // The stretched wavenumber of a mode, in rings.
@@ -184,16 +174,15 @@ std::vector<std::map<std::size_t, double>> sensitivity(const HeightMap& map, con
     constexpr std::size_t long_rings = 32;
     std::vector<std::map<std::size_t, double>> seen(std::min(rings.count, long_rings) + 1);
     const int half = map.periodic ? 0 : kWindowReach;
-    const int far = static_cast<int>(std::ceil((long_rings + 0.5) * rings.stretch * rings.ring /
-                                               std::min(rings.step_x, rings.step_y)));
+    const int far = int(std::ceil((long_rings + 0.5) * rings.stretch * rings.ring /
+                                  std::min(rings.step_x, rings.step_y)));
     for (int j = -std::min(far, ny / 2); j <= std::min(far, ny / 2); ++j)
         for (int i = 0; i <= std::min(far, nx / 2); ++i) {
             const std::size_t r = nearest(rings.of(rings.step_x * i, rings.step_y * j));
             if (r == 0 || r >= seen.size()) continue;
             for (int v = -half; v <= half; ++v)
                 for (int u = -half; u <= half; ++u) {
-                    const double share = window[static_cast<std::size_t>(std::abs(u))] *
-                                         window[static_cast<std::size_t>(std::abs(v))];
+                    const double share = window[at(std::abs(u))] * window[at(std::abs(v))];
                     const double q =
                         rings.of(rings.step_x * (i + 0.5 * u), rings.step_y * (j + 0.5 * v));
                     seen[r][nearest(q * MeasuredSpectrum::kPlaces)] += (i == 0 ? 1 : 2) * share;
@@ -212,9 +201,9 @@ struct ModePower {
               const std::complex<double>* modes)
         : power(rings.count + 1, 0.0), count(rings.count + 1, 0.0), plane(rings.count) {
         const int nx = map.nx, ny = map.ny;
-        for (int j = 0; j < ny; ++j) {
+        for (const int j : indices(ny)) {
             const double ky = rings.step_y * (j <= ny / 2 ? j : j - ny);
-            for (int i = 0; i < columns; ++i) {
+            for (const int i : indices(columns)) {
                 const double kx = rings.step_x * i;
                 const std::size_t r = nearest(rings.of(kx, ky));
                 if (r > rings.count) continue;
@@ -243,8 +232,8 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double di
     const auto seen = sensitivity(map, rings);
     // By Parseval's theorem the squared modes add up to nx ny times the sum of the squared windowed
     // heights.
-    const double scale = 1 / (static_cast<double>(map.nx) * map.ny * windowed.squares() *
-                              rings.step_x * rings.step_y);
+    const double scale =
+        1 / (double(map.nx) * map.ny * windowed.squares() * rings.step_x * rings.step_y);
     MeasuredSpectrum s;
     s.ring = rings.ring;
     // For a Hann window (sum w^2)^2/(n sum w^4) = 0.514 in each direction, so a share 0.27 of the
@@ -255,7 +244,7 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double di
     s.coupled = map.periodic ? 1 : 1 / kHann;
     for (std::size_t r = 1; r <= rings.count; ++r) {
         if (modes.count[r] == 0) continue;  // rings of a narrow map may have no modes
-        s.wavenumber.push_back(static_cast<double>(r) * rings.ring);
+        s.wavenumber.push_back(double(r) * rings.ring);
         s.psd.push_back(scale * modes.power[r] / modes.count[r]);
         s.modes.push_back(modes.count[r]);
         if (r >= seen.size()) continue;
@@ -269,7 +258,7 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double di
     }
     s.lost = map.periodic ? 0 : 1.5;
     if (aspect == 1) modes.plane.finish(s, rings.ring, scale);
-    const double across = 90 / std::numbers::pi * std::arg(modes.directed) + 90;
+    const double across = 90 / pi * std::arg(modes.directed) + 90;
     s.lay = across < 180 ? across : across - 180;
     return s;
 }
@@ -279,7 +268,7 @@ ModePowers mode_powers(const HeightMap& profile) {
     const Buffer buffer = windowed.modes();
     const auto* const modes = reinterpret_cast<const std::complex<double>*>(buffer.get());
     ModePowers powers;
-    powers.step = 2 * std::numbers::pi / profile.Lx();
+    powers.step = 2 * pi / profile.Lx();
     for (int i = 0; i < windowed.columns(); ++i)
         powers.power.push_back(std::norm(modes[i]) / (profile.nx * windowed.squares()));
     return powers;
@@ -316,18 +305,17 @@ HeightParameters height_parameters(const HeightMap& map) {
 double twin_exponent(const std::function<double(double, double)>& psd,
                      const std::vector<double>& wavenumber, const HeightMap& map,
                      const HeightParameters& parameters, double most) {
-    constexpr int parts = 4, angles = 4 * static_cast<int>(MeasuredSpectrum::kAngles);
+    constexpr int parts = 4, angles = 4 * int(MeasuredSpectrum::kAngles);
     std::vector<std::array<double, 3>> rings;  // ln k, shares of the mean square height and slope
     const auto difference = [](double k, double step) { return 2 * std::sin(k * step / 2) / step; };
     for (std::size_t g = 1; g < wavenumber.size(); ++g) {
         const double width = std::log(wavenumber[g] / wavenumber[g - 1]) / parts;
-        for (int p = 0; p < parts; ++p) {
+        for (const int p : indices(parts)) {
             const double log_k = std::log(wavenumber[g - 1] / wavenumber[0]) + (p + 0.5) * width,
                          k = wavenumber[0] * std::exp(log_k);
             double height = 0, slope = 0;
-            for (int a = 0; a < angles; ++a) {
-                const double kx = k * std::cos(std::numbers::pi * a / angles),
-                             ky = k * std::sin(std::numbers::pi * a / angles);
+            for (const int a : indices(angles)) {
+                const double kx = k * std::cos(pi * a / angles), ky = k * std::sin(pi * a / angles);
                 const double sx = difference(kx, map.dx), sy = difference(ky, map.dy),
                              power = k * k * width * psd(kx, ky);
                 height += power;
@@ -355,7 +343,7 @@ std::vector<double> tilted(std::vector<double> psd, const std::vector<double>& w
     if (exponent == 0 || psd.empty() || wavenumber.empty() || psd.size() % wavenumber.size() != 0)
         return psd;
     const std::size_t across = psd.size() / wavenumber.size();
-    for (std::size_t i = 0; i < psd.size(); ++i)
+    for (const auto i : indices(psd))
         psd[i] *= std::pow(wavenumber[i / across] / wavenumber[0], exponent);
     return psd;
 }
@@ -379,15 +367,15 @@ Isotropy isotropy(const HeightMap& map) {
     const double mean = 0.5 * (xx + yy), apart = std::hypot(0.5 * (xx - yy), xy);
     if (!(mean + apart > 0)) return {};
     return {std::sqrt(std::max(0.0, mean - apart) / (mean + apart)),
-            0.5 * (std::atan2(xy, 0.5 * (xx - yy)) + std::numbers::pi)};
+            0.5 * (std::atan2(xy, 0.5 * (xx - yy)) + pi)};
 }
 
 HeightQuantiles height_quantiles(const HeightMap& map) {
     std::vector<double> heights;
     heights.reserve(map.points());
     const double mean = mean_height(map);
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) heights.push_back(map(i, j) - mean);
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx)) heights.push_back(map(i, j) - mean);
     HeightQuantiles q;
     for (int i = 0; i < HeightQuantiles::kScores; ++i)
         q.score.push_back(-5 + 10.0 * i / (HeightQuantiles::kScores - 1));

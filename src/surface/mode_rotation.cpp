@@ -25,7 +25,7 @@ RSC_ALWAYS_INLINE void add_powers_body(const float* z, std::ptrdiff_t count, dou
     second += second2;
     third += third2;
     fourth += fourth2;
-    for (int l = 0; l < 8; ++l) {
+    for (const int l : indices(8)) {
         total[0] += second[l];
         total[1] += third[l];
         total[2] += fourth[l];
@@ -39,12 +39,12 @@ RSC_ALWAYS_INLINE void angles(const float* x, const float* y, const float* inver
         std::fill_n(cosine, kBatch, 1.0f);
         return;
     }
-    for (int i = 0; i < kBatch; ++i) {
+    for (const int i : indices(kBatch)) {
         tangent[i] = (p * x[i] + q * y[i]) * inverse[i];
         cosine[i] = 1 + tangent[i] * tangent[i];
     }
     vector_math::square_roots(cosine, kBatch);
-    for (int i = 0; i < kBatch; ++i) cosine[i] = 1 / cosine[i];
+    for (const int i : indices(kBatch)) cosine[i] = 1 / cosine[i];
 }
 
 RSC_ALWAYS_INLINE void add_rotated_body(const float* x, const float* y, const float* u,
@@ -65,7 +65,7 @@ RSC_ALWAYS_INLINE void add_rotated_body(const float* x, const float* y, const fl
         lost_u += lost * at(u, m).v;
         lost_v += lost * at(v, m).v;
     }
-    for (int l = 0; l < 8; ++l) {
+    for (const int l : indices(8)) {
         total[0] += xx[l];
         total[1] += xy[l];
         total[2] += yy[l];

@@ -21,7 +21,7 @@ RSC_ALWAYS_INLINE void noise_batch(const NoiseKey& key, std::int32_t kx, std::in
     const auto r0 = static_cast<std::uint32_t>(realization),
                r1 = static_cast<std::uint32_t>(realization >> 32);
     alignas(64) std::uint32_t w0[kNoiseBatch], w1[kNoiseBatch], w2[kNoiseBatch], w3[kNoiseBatch];
-    for (int i = 0; i < kNoiseBatch; ++i) {
+    for (const int i : indices(kNoiseBatch)) {
         std::uint32_t c0 = static_cast<std::uint32_t>(kx);
         std::uint32_t c1 = static_cast<std::uint32_t>(ky_first) + static_cast<std::uint32_t>(i);
         std::uint32_t c2 = r0, c3 = r1;
@@ -40,7 +40,7 @@ RSC_ALWAYS_INLINE void noise_batch(const NoiseKey& key, std::int32_t kx, std::in
         w3[i] = c3;
     }
     alignas(64) double radius[kNoiseBatch];
-    for (int i = 0; i < kNoiseBatch; ++i) {
+    for (const int i : indices(kNoiseBatch)) {
         // 52 random bits with the exponent of 1 form a uniform number in [1, 2).
         const std::uint64_t b1 =
             w0[i] | (static_cast<std::uint64_t>(w1[i] & 0xfffffu) << 32) | 0x3ff0000000000000ULL;
@@ -54,7 +54,7 @@ RSC_ALWAYS_INLINE void noise_batch(const NoiseKey& key, std::int32_t kx, std::in
         vector_math::cos_sin_turns(u2, re[i], im[i]);
     }
     vector_math::square_roots(radius, kNoiseBatch);
-    for (int i = 0; i < kNoiseBatch; ++i) {
+    for (const int i : indices(kNoiseBatch)) {
         re[i] *= radius[i];
         im[i] *= radius[i];
     }
@@ -103,8 +103,8 @@ RSC_ALWAYS_INLINE void power_law_body(const Spectrum& s, const Stretch& stretche
     const double x2 = stretched.xx * kx * kx, xy = 2 * stretched.xy * kx, yy = stretched.yy;
     const double log_ql2 = vector_math::log_positive(s.L_lambda_l * s.L_lambda_l);
     const double exponent = -0.5 * (1.0 + s.hurst);
-    for (int i = 0; i < count; ++i) {
-        const double y = static_cast<double>(ky_first + i);
+    for (const int i : indices(count)) {
+        const double y = double(ky_first + i);
         amplitude[i] = vector_math::exp_moderate(
             exponent * (vector_math::log_positive(x2 + y * (xy + yy * y)) - log_ql2));
     }
@@ -123,9 +123,9 @@ RSC_ALWAYS_INLINE void add_energies_body(const double* amplitude, const double* 
                                          int count, Lanes& total) {
     Lanes sums = total;
     for (int i = 0; i < count; i += kLanes)
-        for (int l = 0; l < kLanes; ++l) {
+        for (const int l : indices(kLanes)) {
             const int k = i + l;
-            const double y = static_cast<double>(ky_first + k);
+            const double y = double(ky_first + k);
             const double y2 = y * y;
             const double square = amplitude[k] * amplitude[k];
             const double e = square * (re[k] * re[k] + im[k] * im[k]);
@@ -153,7 +153,7 @@ RSC_DISPATCH(add_energies, add_energies_body,
 
 double sum(const double* lanes) {
     double total = 0;
-    for (int l = 0; l < kLanes; ++l) total += lanes[l];
+    for (const int l : indices(kLanes)) total += lanes[l];
     return total;
 }
 
@@ -166,19 +166,18 @@ void draw_run(const Spectrum& spectrum, const Band& limits, const NoiseKey& key,
         const int count = std::min(kBatch, last - ky + 1),
                   whole = (count + kLanes - 1) / kLanes * kLanes;
         if (spectrum.table)
-            for (int i = 0; i < count; ++i)
+            for (const int i : indices(count))
                 amplitude[i] = std::sqrt(relative_psd(spectrum, kx, ky + i));
         else
             power_law(spectrum, limits.stretched, kx, ky, whole, amplitude);
         std::fill(amplitude + count, amplitude + whole, 0.0);
-        if (!spectrum.table &&
-            kx * static_cast<double>(kx) < limits.stretched.yy * limits.lowest_q2)
-            for (int i = 0; i < count; ++i)
+        if (!spectrum.table && kx * double(kx) < limits.stretched.yy * limits.lowest_q2)
+            for (const int i : indices(count))
                 if (limits.stretched(kx, ky + i) < limits.lowest_q2)
                     amplitude[i] = spectrum.plateau ? 1.0 : 0.0;
         column_noise(key, kx, ky, count, re, im);
         add_energies(amplitude, re, im, differences.from(ky), ky, whole, lanes);
-        for (int i = 0; i < count; ++i)
+        for (const int i : indices(count))
             coefficient[i] = {amplitude[i] * re[i], amplitude[i] * im[i]};
         coefficient += count;
     }
@@ -204,11 +203,10 @@ void ModeSums::add(const ModeSums& other) {
     grid += other.grid;
 }
 
-Differences::Differences(int most, double h)
-    : most_(most), square_(static_cast<std::size_t>(2 * most + 1 + kBatch)) {
+Differences::Differences(int most, double h) : most_(most), square_(at(2 * most + 1 + kBatch)) {
     for (int k = -most; k <= most; ++k) {
-        const double s = 2.0 * std::sin(std::numbers::pi * k * h);
-        square_[static_cast<std::size_t>(k + most)] = s * s;
+        const double s = 2.0 * std::sin(pi * k * h);
+        square_[at(k + most)] = s * s;
     }
 }
 
@@ -232,7 +230,7 @@ ModeSums draw_column(const Spectrum& spectrum, const NoiseKey& key, int kx, int 
             column[n - ky] = std::conj(column[ky]);
         column[n / 2] += std::conj(column[n / 2]);
     }
-    const double x2 = static_cast<double>(kx) * kx;
+    const double x2 = double(kx) * kx;
     const bool isotropic = !spectrum.directional();
     const double x = kx, e = sum(lanes.e);
     const double y1 = sum(lanes.y1), y2 = sum(lanes.y2);

@@ -9,7 +9,7 @@
 namespace rsc {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kPi = pi;
 constexpr int kFewestPoints = 16;
 
 double mean_of(const double* z, int n) { return std::accumulate(z, z + n, 0.0) / n; }
@@ -24,7 +24,7 @@ ProfileParameters profile_parameters(const HeightMap& profile, double cutoff_lon
     p.length = profile.Lx();
     p.sampling_length = cutoff_long > 0 && cutoff_long < p.length ? cutoff_long : p.length;
     // Rounding must not lose the last of whole sampling lengths.
-    p.samplings = std::max(1, static_cast<int>(p.length / p.sampling_length * (1 + 1e-9)));
+    p.samplings = std::max(1, int(p.length / p.sampling_length * (1 + 1e-9)));
     double absolute = 0, square = 0, cube = 0, fourth = 0;
     for (const int i : indices(n)) {
         const double h = z[i] - level;
@@ -39,8 +39,8 @@ ProfileParameters profile_parameters(const HeightMap& profile, double cutoff_lon
     p.rku = p.rq > 0 ? fourth / n / std::pow(p.rq, 4) : std::nan("");
     const double points = p.sampling_length / profile.dx;
     for (const int k : indices(p.samplings)) {
-        const int first = static_cast<int>(std::lround(k * points)),
-                  end = std::min(n, static_cast<int>(std::lround((k + 1) * points)));
+        const int first = int(std::lround(k * points)),
+                  end = std::min(n, int(std::lround((k + 1) * points)));
         const auto [low, high] = std::minmax_element(z + first, z + end);
         p.rz += (*high - *low) / p.samplings;
     }
@@ -93,14 +93,12 @@ ProfileSpectrum profile_spectrum(const HeightMap& profile, double cutoff_long, d
     s.lowest = std::max((bent ? 2.5 : 1.5) * s.step, cutoff_long > 0 ? 2 * kPi / cutoff_long : 0);
     s.highest = std::min(kPi / profile.dx, cutoff_short > 0 ? 2 * kPi / cutoff_short : HUGE_VAL);
     for (std::size_t j = 1; j < modes.power.size();) {
-        const std::size_t end = std::min(
-            modes.power.size(),
-            j + (j < single ? 1
-                            : std::max<std::size_t>(
-                                  1, static_cast<std::size_t>(wide * static_cast<double>(j)))));
+        const std::size_t end =
+            std::min(modes.power.size(),
+                     j + (j < single ? 1 : std::max<std::size_t>(1, at(wide * double(j)))));
         double sum = 0, logs = 0, count = 0, first = 0;
         for (; j < end; ++j) {
-            const double q = static_cast<double>(j) * s.step;
+            const double q = double(j) * s.step;
             if (q < s.lowest || q > s.highest) continue;
             double gain = 1;
             if (cutoff_long > 0) gain *= 1 - gaussian_transmission(cutoff_long, q);
@@ -144,7 +142,7 @@ std::vector<double> isotropic_spectrum(const std::vector<double>& wavenumber,
             double low = t0;
             for (int piece = 1; piece <= pieces; ++piece) {
                 const double high =
-                    last ? t0 + (t1 - t0) * std::pow(static_cast<double>(piece) / pieces, 4) : t1;
+                    last ? t0 + (t1 - t0) * std::pow(double(piece) / pieces, 4) : t1;
                 sum += slope * c1[i] / (from * from) *
                        Rule::integrate(
                            [&](double t) {

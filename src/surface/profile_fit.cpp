@@ -6,7 +6,7 @@
 namespace rsc {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kPi = pi;
 constexpr long kFewest = 8;        // smallest number of bands for a fit
 constexpr double kHann = 0.514;    // share of independent modes under a Hann window
 constexpr double kNinety = 1.645;  // half width of a 90 % interval in standard deviations
@@ -153,7 +153,7 @@ Model minimise(const Likelihood& likelihood, Model start, const std::array<bool,
         std::ranges::sort(simplex, {}, &Model::misfit);
         if (simplex[n].misfit - simplex[0].misfit < arrived) break;
         Point middle{};
-        for (std::size_t i = 0; i < n; ++i)
+        for (const auto i : indices(n))
             for (std::size_t k = 0; k < kParameters; ++k) middle[k] += simplex[i].x[k] / double(n);
         const auto along = [&](double t) {
             Point x;
@@ -202,8 +202,8 @@ std::array<Model, 2> best_of_grid(const Likelihood& likelihood) {
     const double low = std::log(0.5 * s.wavenumber.front()), high = std::log(s.wavenumber.back());
     constexpr int kls = 20, kss = 14;
     std::vector<double> kl, ks{std::exp(high + 5)};
-    for (int k = 0; k < kls; ++k) kl.push_back(std::exp(low + (high - low) * 0.8 * k / kls));
-    for (int k = 0; k < kss; ++k) ks.push_back(std::exp(high - (high - low) * 0.8 * k / kss));
+    for (const int k : indices(kls)) kl.push_back(std::exp(low + (high - low) * 0.8 * k / kls));
+    for (const int k : indices(kss)) ks.push_back(std::exp(high - (high - low) * 0.8 * k / kss));
     std::array<Model, 2> best;
     best[1].plateau = true;
     // Noise as high as the last band, or none.
@@ -283,7 +283,7 @@ public:
         double sum = 0;
         for (std::size_t i = 0; i <= kParameters; ++i) {
             y[i] = slope[i];
-            for (std::size_t k = 0; k < i; ++k) y[i] -= factor_[i][k] * y[k];
+            for (const auto k : indices(i)) y[i] -= factor_[i][k] * y[k];
             y[i] = factor_[i][i] > 0 ? y[i] / factor_[i][i] : 0.0;
             sum += y[i] * y[i];
         }
@@ -315,7 +315,7 @@ private:
         for (std::size_t i = 0; i <= kParameters; ++i)
             for (std::size_t j = 0; j <= i; ++j) {
                 double sum = information_[i][j];
-                for (std::size_t k = 0; k < j; ++k) sum -= factor_[i][k] * factor_[j][k];
+                for (const auto k : indices(j)) sum -= factor_[i][k] * factor_[j][k];
                 if (i == j)
                     factor_[i][i] = sum > none * information_[0][0] ? std::sqrt(sum) : 0.0;
                 else

@@ -55,10 +55,10 @@ class Field {
 public:
     Field(const Modes& modes, int m)
         : modes_(modes), m_(m), columns_(modes.band.highest_kx + 1), stride_(m + 8) {
-        store_ = allocate(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(stride_));
-        rows_ = allocate(static_cast<std::size_t>(kBlock + 1) * static_cast<std::size_t>(m));
+        store_ = allocate(at(columns_) * at(stride_));
+        rows_ = allocate(at(kBlock + 1) * at(m));
         line_ = rows_.get() + kBlock * m_;
-        heights_ = allocate(static_cast<std::size_t>(m) * static_cast<std::size_t>(m) / 2);
+        heights_ = allocate(at(m) * at(m) / 2);
         modes_.runs([&](int kx, int ky, int count, const std::complex<double>*) {
             runs_.push_back({kx, ky < 0 ? ky + m_ : ky, count});
         });
@@ -70,16 +70,15 @@ public:
         double square = 0;
         std::size_t modes = 0;
         modes_.runs([&](int, int, int count, const std::complex<double>* c) {
-            for (int i = 0; i < count; ++i) square += std::norm(c[i]);
-            modes += static_cast<std::size_t>(count);
+            for (const int i : indices(count)) square += std::norm(c[i]);
+            modes += at(count);
         });
         const double scale = square > 0 ? 1 / std::sqrt(2 * square) : 1;
         mode_.assign((modes + kBatch - 1) / kBatch * kBatch, Complex());
         std::size_t k = 0;
         modes_.runs([&](int, int, int count, const std::complex<double>* c) {
             for (int i = 0; i < count; ++i, ++k)
-                mode_[k] = {static_cast<float>(scale * c[i].real()),
-                            static_cast<float>(scale * c[i].imag())};
+                mode_[k] = {float(scale * c[i].real()), float(scale * c[i].imag())};
         });
         inverse_.resize(mode_.size());
         for (std::size_t i = 0; i < mode_.size(); ++i) {
@@ -160,8 +159,8 @@ private:
     // next, k: the state of a walk over all columns.
     template <class Next, class Visit>
     void each(int kx, Next& next, std::size_t& k, Visit visit) const {
-        for (; next != runs_.end() && next->kx == kx; k += static_cast<std::size_t>(next++->count))
-            visit(k, next->first, static_cast<std::size_t>(next->count));
+        for (; next != runs_.end() && next->kx == kx; k += at(next++->count))
+            visit(k, next->first, at(next->count));
     }
 
     // The heights of the modes, and their moments. Rows 2i and 2i + 1 are the real and imaginary
@@ -181,25 +180,25 @@ private:
         double sums[3] = {};
         for (int j = 0; j < m_ / 2; j += kBlock) {
             const int count = std::min(kBlock, m_ / 2 - j);
-            for (int r = 0; r < count; ++r) {
+            for (const int r : indices(count)) {
                 rows_[r * m_] = {store_[2 * (j + r)].real(), store_[2 * (j + r) + 1].real()};
                 std::fill_n(rows_.get() + r * m_ + columns_, m_ - 2 * columns_ + 1, Complex());
             }
             for (int kx = 1; kx < columns_; ++kx) {
                 const Complex* const from = store_.get() + kx * stride_ + 2 * j;
                 Complex *const to = rows_.get() + kx, *const mirror = rows_.get() + m_ - kx;
-                for (int r = 0; r < count; ++r) {
+                for (const int r : indices(count)) {
                     const Complex a = from[2 * r], b = from[2 * r + 1];
                     to[r * m_] = {a.real() - b.imag(), a.imag() + b.real()};
                     mirror[r * m_] = {a.real() + b.imag(), b.real() - a.imag()};
                 }
             }
             Complex* const z = heights_.get() + j * m_;
-            for (int r = 0; r < count; ++r)
+            for (const int r : indices(count))
                 fftwf_execute_dft(up_.get(), fftw(rows_.get() + r * m_), fftw(z + r * m_));
             add_powers(numbers(z), 2 * count * m_, sums);
         }
-        const double points = static_cast<double>(m_) * m_, variance = sums[0] / points;
+        const double points = double(m_) * m_, variance = sums[0] / points;
         // The mean is 0: no mode (0, 0).
         return {sums[1] / points / (variance * std::sqrt(variance)),
                 sums[2] / points / (variance * variance)};
@@ -211,17 +210,17 @@ private:
     void coefficients(Function of, Visit visit) {
         for (int j = 0; j < m_ / 2; j += kBlock) {
             const int count = std::min(kBlock, m_ / 2 - j);
-            for (int r = 0; r < count; ++r) {
+            for (const int r : indices(count)) {
                 const float* const z = numbers(heights_.get() + (j + r) * m_);
-                for (int i = 0; i < 2 * m_; ++i) numbers(line_)[i] = of(z[i]);
+                for (const int i : indices(2 * m_)) numbers(line_)[i] = of(z[i]);
                 fftwf_execute_dft(down_.get(), fftw(line_), fftw(rows_.get() + r * m_));
             }
-            for (int kx = 0; kx < columns_; ++kx) {
+            for (const int kx : indices(columns_)) {
                 const Complex *const from = rows_.get() + kx, *const mirror =
                                                                   rows_.get() +
                                                                   (kx > 0 ? m_ - kx : 0);
                 Complex* const to = store_.get() + kx * stride_ + 2 * j;
-                for (int r = 0; r < count; ++r) {
+                for (const int r : indices(count)) {
                     const Complex a = from[r * m_], b = mirror[r * m_];
                     to[2 * r] = {a.real() + b.real(), a.imag() - b.imag()};
                     to[2 * r + 1] = {a.imag() + b.imag(), b.real() - a.real()};
@@ -230,7 +229,7 @@ private:
         }
         auto next = runs_.begin();
         std::size_t done = 0;
-        for (int kx = 0; kx < columns_; ++kx) {
+        for (const int kx : indices(columns_)) {
             fftwf_execute_dft(down_.get(), fftw(store_.get() + kx * stride_), fftw(line_));
             each(kx, next, done, [&](std::size_t k, int first, std::size_t count) {
                 visit(k, line_ + first, count);
@@ -246,10 +245,10 @@ private:
     void parts(Function of, Parts& to) {
         to.along.resize(mode_.size());
         to.across.resize(mode_.size());
-        const float scale = 0.5f / (static_cast<float>(m_) * static_cast<float>(m_));
+        const float scale = 0.5f / (float(m_) * float(m_));
         coefficients(of, [&](std::size_t first, const Complex* change, std::size_t count) {
             const Complex* const mode = mode_.data() + first;
-            for (std::size_t i = 0; i < count; ++i) {
+            for (const auto i : indices(count)) {
                 const float x = scale * mode[i].real(), y = scale * mode[i].imag();
                 to.along[first + i] = x * change[i].real() + y * change[i].imag();
                 to.across[first + i] = x * change[i].imag() - y * change[i].real();
@@ -292,11 +291,11 @@ private:
             const auto [a, b, c, lost_s, lost_t] = sums;
             const double determinant = a * c - b * b, s1 = s + lost_s, t1 = t + lost_t;
             if (!(determinant > 0)) break;
-            p = static_cast<float>((c * s1 - b * t1) / determinant);
-            q = static_cast<float>((a * t1 - b * s1) / determinant);
+            p = float((c * s1 - b * t1) / determinant);
+            q = float((a * t1 - b * s1) / determinant);
             size = std::sqrt(2 * (p * p * a + 2 * p * q * b + q * q * c));
             const double longest = size > 1 ? kFar : kLongest;
-            if (const float most = static_cast<float>(longest / size); most < 1) {
+            if (const float most = float(longest / size); most < 1) {
                 p *= most;
                 q *= most;
             }
@@ -337,33 +336,32 @@ private:
     // Bins over +-kRange rms heights; the outermost include all larger heights.
     static constexpr float kRange = 12, kPerUnit = kBins / (2 * kRange);
     static std::size_t place_of(float z) {
-        return static_cast<std::size_t>(
-            std::clamp((z + kRange) * kPerUnit, 0.0f, static_cast<float>(kBins - 1)));
+        return at(std::clamp((z + kRange) * kPerUnit, 0.0f, float(kBins - 1)));
     }
 
     // Heights replaced by rank.
     void replace(const HeightDistribution& by) {
         long bin[kBins] = {};
         for (int j = 0; j < m_ / 2; j += std::max(1, m_ / 256))  // enough rows
-            for (int i = 0; i < 2 * m_; ++i) ++bin[place_of(numbers(heights_.get() + j * m_)[i])];
+            for (const int i : indices(2 * m_))
+                ++bin[place_of(numbers(heights_.get() + j * m_)[i])];
         double total = 0, below = 0;
-        for (const long count : bin) total += static_cast<double>(count);
+        for (const long count : bin) total += double(count);
         float value[kBins + 1];
         for (std::size_t b = 0; b <= kBins; ++b) {
             const double p = std::clamp(below / total, 0.5 / total, 1 - 0.5 / total);
             using Policy =
                 boost::math::policies::policy<boost::math::policies::promote_double<false>>;
-            value[b] = static_cast<float>(
-                by(-std::numbers::sqrt2 * boost::math::erfc_inv(2 * p, Policy())));
-            if (b < kBins) below += static_cast<double>(bin[b]);
+            value[b] = float(by(-std::numbers::sqrt2 * boost::math::erfc_inv(2 * p, Policy())));
+            if (b < kBins) below += double(bin[b]);
         }
         const auto ranked = [&](float z) {
-            const float at = std::clamp((z + kRange) * kPerUnit, 0.0f, static_cast<float>(kBins));
-            const std::size_t k = std::min<std::size_t>(static_cast<std::size_t>(at), kBins - 1);
-            return value[k] + (value[k + 1] - value[k]) * (at - static_cast<float>(k));
+            const float at = std::clamp((z + kRange) * kPerUnit, 0.0f, float(kBins));
+            const std::size_t k = std::min(std::size_t(at), std::size_t(kBins - 1));
+            return value[k] + (value[k + 1] - value[k]) * (at - float(k));
         };
         coefficients(ranked, [&](std::size_t k, const Complex* c, std::size_t count) {
-            for (std::size_t i = 0; i < count; ++i)
+            for (const auto i : indices(count))
                 if (const float square = std::norm(c[i]); square > 1e-30f)
                     mode_[k + i] = c[i] * std::sqrt(std::norm(mode_[k + i]) / square);
         });
@@ -401,8 +399,8 @@ int points(const Band& band) {
 
 Band ellipse(const Band& whole, const Stretch& stretched, double q2) {
     Band b{stretched, 0, q2, 0, 0};
-    b.highest_kx = std::min(whole.highest_kx, static_cast<int>(std::sqrt(stretched.yy * q2)));
-    b.highest_ky = std::min(whole.highest_ky, static_cast<int>(std::sqrt(stretched.xx * q2)));
+    b.highest_kx = std::min(whole.highest_kx, int(std::sqrt(stretched.yy * q2)));
+    b.highest_ky = std::min(whole.highest_ky, int(std::sqrt(stretched.xx * q2)));
     return b;
 }
 
@@ -427,16 +425,16 @@ std::pair<Band, double> long_waves(const Modes& modes, double share) {
     const double scale = 1 / modes.band.highest_q2;
     double total = 0, found = 0;
     modes.runs([&](int kx, int ky, int count, const std::complex<double>* c) {
-        for (int i = 0; i < count; ++i) {
+        for (const int i : indices(count)) {
             const double e = std::norm(c[i]),
                          q = std::sqrt(scale * modes.band.stretched(kx, ky + i));
-            energy[std::min<std::size_t>(bins, static_cast<std::size_t>(bins * q))] += e;
+            energy[std::min<std::size_t>(bins, at(bins * q))] += e;
             total += e;
         }
     });
     int b = 0;
-    while (b < bins && found < share * total) found += energy[static_cast<std::size_t>(b++)];
-    const double q = static_cast<double>(b) / bins;
+    while (b < bins && found < share * total) found += energy[at(b++)];
+    const double q = double(b) / bins;
     return {ellipse(modes.whole, modes.band.stretched, modes.band.highest_q2 * q * q),
             found / total};
 }

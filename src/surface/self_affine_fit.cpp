@@ -21,7 +21,7 @@ public:
     Sums(const std::vector<double>& x, const std::vector<double>& y,
          const std::vector<double>& weight)
         : to_(x.size() + 1) {
-        for (std::size_t i = 0; i < x.size(); ++i) {
+        for (const auto i : indices(x)) {
             const Six& s = to_[i];
             const double w = weight[i], wx = w * x[i], wy = w * y[i];
             to_[i + 1] = {s.n + w,          s.x + wx,         s.y + wy,
@@ -68,8 +68,7 @@ public:
     BandSearch(const std::vector<double>& x, const std::vector<double>& y,
                const std::vector<double>& weight)
         : x_(x), sums_(x, y, weight), power_(x.size() + 1) {
-        for (std::size_t i = 0; i < x.size(); ++i)
-            power_[i + 1] = power_[i] + std::exp(x[i] + y[i]);  // k Phi
+        for (const auto i : indices(x)) power_[i + 1] = power_[i] + std::exp(x[i] + y[i]);  // k Phi
     }
 
     Line power_law(const Cut& c) const { return line_through(sums_.between(c.low, c.high)); }
@@ -104,7 +103,7 @@ public:
         constexpr double kLeastPower = 0.01;
         if (slope < kSteepest || slope > kFlattest) return HUGE_VAL;
         if (power_[c.high] - power_[c.low] < kLeastPower * power_.back()) return HUGE_VAL;
-        const auto n = static_cast<double>(x_.size());
+        const auto n = double(x_.size());
         double parameters = 2;
         if (c.low > 0) parameters += 3;
         if (c.high < x_.size()) parameters += 3;
@@ -172,7 +171,7 @@ public:
             const double off = s_.psd[i] / (expected[i - first_] * std::exp(m.log_phi0)) - 1;
             sum += s_.independent * s_.modes[i] * std::min(off * off, 25.0);
         }
-        return std::max(1.0, sum / static_cast<double>(end_ - first_) * s_.coupled);
+        return std::max(1.0, sum / double(end_ - first_) * s_.coupled);
     }
     double lowest() const { return s_.wavenumber[first_]; }
     double highest() const { return s_.wavenumber[end_ - 1]; }
@@ -187,7 +186,7 @@ private:
         };
         std::vector<double> at(s_.places), expected;
         for (std::size_t p = 0; p < at.size(); ++p)
-            at[p] = phi(std::max(static_cast<double>(p), 0.5) / MeasuredSpectrum::kPlaces);
+            at[p] = phi(std::max(double(p), 0.5) / MeasuredSpectrum::kPlaces);
         for (std::size_t i = first_; i < end_; ++i) {
             double sum = 0;
             if (i < s_.seen.size())
@@ -215,8 +214,8 @@ double SelfAffineFit::operator()(double k) const {
 double SelfAffineFit::around(double k) const {
     constexpr int angles = 180;
     double sum = 0;
-    for (int a = 0; a < angles; ++a) {
-        const double angle = std::numbers::pi * (a + 0.5) / angles;
+    for (const int a : indices(angles)) {
+        const double angle = pi * (a + 0.5) / angles;
         sum += (*this)(k * std::hypot(std::sqrt(aspect) * std::cos(angle),
                                       std::sin(angle) / std::sqrt(aspect)));
     }
@@ -237,7 +236,7 @@ struct PoweredRings {
 
     explicit PoweredRings(const MeasuredSpectrum& spectrum) {
         double weights = 0;
-        for (std::size_t i = 0; i < spectrum.psd.size(); ++i)
+        for (const auto i : indices(spectrum.psd))
             if (spectrum.psd[i] > 0) {
                 const double independent = spectrum.independent * spectrum.modes[i];
                 k.push_back(spectrum.wavenumber[i]);
@@ -248,7 +247,7 @@ struct PoweredRings {
                 weight.push_back(independent);
                 weights += independent;
             }
-        for (double& w : weight) w *= static_cast<double>(weight.size()) / weights;
+        for (double& w : weight) w *= double(weight.size()) / weights;
     }
 };
 
@@ -266,9 +265,8 @@ Cut best_cut(const BandSearch& search, std::size_t n) {
     };
     // Coarse search with about 60 places per decade, then a fine search around the best cut.
     std::vector<std::size_t> places;
-    for (double place = 0; static_cast<std::size_t>(place) <= n;
-         place = std::max(place + 1, place * 1.04))
-        places.push_back(static_cast<std::size_t>(place));
+    for (double place = 0; at(place) <= n; place = std::max(place + 1, place * 1.04))
+        places.push_back(at(place));
     places.push_back(n);
     for (const std::size_t low : places)
         for (const std::size_t high : places) try_cut({low, high});
@@ -365,8 +363,7 @@ Fitted end_of_power_law(const MeasuredSpectrum& spectrum, const PoweredRings& ri
     const std::size_t n = k.size();
     const double variance =
         spectrum.coupled *
-        std::max(search.power_law(best).left /
-                     std::max(static_cast<double>(best.high - best.low) - 2, 1.0),
+        std::max(search.power_law(best).left / std::max(double(best.high - best.low) - 2, 1.0),
                  BandSearch::kScatter);
     const double limit_left = search.left(best).square + variance;
     const auto may_end = [&](std::size_t to) {

@@ -58,7 +58,7 @@ SpectrumTable::SpectrumTable(std::vector<double> wavenumber, std::vector<double>
 
 double SpectrumTable::along(std::size_t ring, double turn) const {
     const double whole = std::floor(turn);
-    const auto first = static_cast<std::size_t>(whole) % angles_;
+    const auto first = at(whole) % angles_;
     return std::lerp(psd_[ring * angles_ + first], psd_[ring * angles_ + (first + 1) % angles_],
                      turn - whole);
 }
@@ -67,10 +67,9 @@ double SpectrumTable::operator()(double kx, double ky) const {
     const double k = std::hypot(kx, ky);
     if (!(k >= k_.front() * (1 - kEdgeTolerance) && k <= k_.back() * (1 + kEdgeTolerance)))
         return 0;
-    const double angle = std::atan2(ky, kx) / std::numbers::pi,
-                 turn = (angle < 0 ? angle + 1 : angle) * static_cast<double>(angles_);
-    const auto i =
-        static_cast<std::size_t>(std::upper_bound(k_.begin() + 1, k_.end() - 1, k) - k_.begin());
+    const double angle = std::atan2(ky, kx) / pi,
+                 turn = (angle < 0 ? angle + 1 : angle) * double(angles_);
+    const auto i = at(std::upper_bound(k_.begin() + 1, k_.end() - 1, k) - k_.begin());
     const double low = along(i - 1, turn), high = along(i, turn);
     if (low == 0 || high == 0) return 0;
     const double t = std::clamp(std::log(k / k_[i - 1]) / std::log(k_[i] / k_[i - 1]), 0.0, 1.0);
@@ -81,11 +80,10 @@ double SpectrumTable::operator()(double kx, double ky) const {
 // spectrum that does not depend on them.
 double SpectrumTable::integral(int p, int q) const {
     constexpr int parts = 8;  // subdivisions of the step between two angles
-    const double step = std::numbers::pi / (parts * static_cast<double>(angles_));
+    const double step = pi / (parts * double(angles_));
     double sum = 0;
     for (std::size_t a = 0; a < parts * angles_; ++a) {
-        const double turn = (static_cast<double>(a) + 0.5) / parts,
-                     angle = (static_cast<double>(a) + 0.5) * step;
+        const double turn = (double(a) + 0.5) / parts, angle = (double(a) + 0.5) * step;
         double radial = 0;
         for (std::size_t i = 1; i < k_.size(); ++i) {
             const double low = along(i - 1, turn), high = along(i, turn);
@@ -104,8 +102,8 @@ double SpectrumTable::sigma() const { return std::sqrt(integral(0, 0)); }
 Spectrum tabulated_spectrum(std::shared_ptr<const SpectrumTable> table, double L, double sigma) {
     Spectrum s;
     s.L = L;
-    s.L_lambda_l = table->lowest() * L / (2 * std::numbers::pi);
-    s.L_lambda_s = table->highest() * L / (2 * std::numbers::pi);
+    s.L_lambda_l = table->lowest() * L / (2 * pi);
+    s.L_lambda_s = table->highest() * L / (2 * pi);
     s.sigma = sigma;
     s.table = std::move(table);
     return s;
@@ -132,7 +130,7 @@ double Moments::summit_density() const {
                   (4 * t.m11 * t.m11 + 2 * t.m02 * t.m20) * t.m22 -
                   4 * t.m11 * (t.m02 * t.m31 + t.m20 * t.m13));
     }
-    return std::sqrt(3.0) * fourth / (18.0 * std::numbers::pi * second);
+    return std::sqrt(3.0) * fourth / (18.0 * pi * second);
 }
 double Moments::mean_spacing() const { return 1.0 / std::sqrt(summit_density()); }
 double Moments::mean_radius() const { return 0.737 / std::sqrt(m4); }
@@ -183,8 +181,7 @@ void validate(const Spectrum& s) {
 
 Stretch stretch(const Spectrum& s) {
     if (s.aspect == 1) return {};
-    const double angle = s.direction * std::numbers::pi / 180, c = std::cos(angle),
-                 d = std::sin(angle);
+    const double angle = s.direction * pi / 180, c = std::cos(angle), d = std::sin(angle);
     const double along = s.aspect, across = 1 / s.aspect;
     return {along * c * c + across * d * d, (along - across) * c * d,
             along * d * d + across * c * c};
@@ -195,11 +192,11 @@ double shortest_wave(const Spectrum& s) {
 }
 
 Band::Run Band::column(int kx) const {
-    const double rest = stretched.yy * highest_q2 - static_cast<double>(kx) * kx;
+    const double rest = stretched.yy * highest_q2 - double(kx) * kx;
     if (rest < 0.0) return {};
     const double root = std::sqrt(rest), middle = -stretched.xy * kx;
-    return {static_cast<int>(std::ceil((middle - root) / stretched.yy)),
-            static_cast<int>(std::floor((middle + root) / stretched.yy))};
+    return {int(std::ceil((middle - root) / stretched.yy)),
+            int(std::floor((middle + root) / stretched.yy))};
 }
 
 Band band(const Spectrum& s) {
@@ -207,13 +204,13 @@ Band band(const Spectrum& s) {
     b.stretched = stretch(s);
     b.lowest_q2 = s.L_lambda_l * s.L_lambda_l * (1.0 - kEdgeTolerance);
     b.highest_q2 = s.L_lambda_s * s.L_lambda_s * (1.0 + kEdgeTolerance);
-    b.highest_kx = static_cast<int>(std::sqrt(b.stretched.yy * b.highest_q2));
-    b.highest_ky = static_cast<int>(std::sqrt(b.stretched.xx * b.highest_q2));
+    b.highest_kx = int(std::sqrt(b.stretched.yy * b.highest_q2));
+    b.highest_ky = int(std::sqrt(b.stretched.xx * b.highest_q2));
     return b;
 }
 
 double relative_psd(const Spectrum& s, double kx, double ky) {
-    const double step = 2 * std::numbers::pi / s.L;
+    const double step = 2 * pi / s.L;
     if (s.by_direction()) return (*s.table)(step * kx, step * ky) / s.table->largest();
     const Band b = band(s);
     const double q2 = b.stretched(kx, ky);
@@ -227,8 +224,7 @@ double relative_psd(const Spectrum& s, double kx, double ky) {
 // <(k1' k2')^2> = m4/3.
 MomentTensor directional_moments(double m2, double m4, double aspect, double direction) {
     if (aspect == 1) direction = 0;  // makes the moments along x and y exactly equal
-    const double angle = direction * std::numbers::pi / 180, c = std::cos(angle),
-                 s = std::sin(angle);
+    const double angle = direction * pi / 180, c = std::cos(angle), s = std::sin(angle);
     const double aa = c * c / aspect + s * s * aspect, bb = s * s / aspect + c * c * aspect,
                  ab = c * s * (1 / aspect - aspect);
     return {m2 * aa,      m2 * ab,      m2 * bb,
@@ -249,7 +245,7 @@ Moments isotropic_moments(const Spectrum& s) {
                 {},
                 {}};
     }
-    const double kl = 2.0 * std::numbers::pi * s.L_lambda_l / s.L;
+    const double kl = 2.0 * pi * s.L_lambda_l / s.L;
     const double log_zeta = std::log(s.L_lambda_s / s.L_lambda_l);
     const double xi = 1.0 / s.L_lambda_l;
     const auto radial = [&](double p) {
@@ -287,13 +283,13 @@ Moments theoretical_moments(const Spectrum& s) {
 Moments discrete_moments(const Spectrum& s) {
     validate(s);
     const Band b = band(s);
-    const double step = 2.0 * std::numbers::pi / s.L;
+    const double step = 2.0 * pi / s.L;
     double s0 = 0, s2 = 0, s4 = 0;
     for (int kx = 0; kx <= b.highest_kx; ++kx) {
-        const double x2 = static_cast<double>(kx) * kx;
+        const double x2 = double(kx) * kx;
         const auto [first, last] = b.column(kx);
         for (int ky = first; ky <= last; ++ky) {
-            const double y2 = static_cast<double>(ky) * ky;
+            const double y2 = double(ky) * ky;
             const double w = (kx > 0 ? 2.0 : 1.0) * relative_psd(s, kx, ky);
             s0 += w;
             s2 += w * (x2 + y2) / 2.0;

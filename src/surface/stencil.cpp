@@ -16,13 +16,13 @@ struct Halves {
 
 RSC_ALWAYS_INLINE void add_series_body(const double (*centre)[kHalf], int derivatives,
                                        const double* power, int orders, Halves& halves) {
-    for (int p = 0; p < orders; ++p) {
+    for (const int p : indices(orders)) {
         double even[kHalf] = {}, odd[kHalf] = {};
         for (int q = (p + 1) / 2 * 2; q < derivatives; q += 2)
-            for (int i = 0; i < kHalf; ++i) even[i] += power[q - p] * centre[q][i];
+            for (const int i : indices(kHalf)) even[i] += power[q - p] * centre[q][i];
         for (int q = p / 2 * 2 + 1; q < derivatives; q += 2)
-            for (int i = 0; i < kHalf; ++i) odd[i] += power[q - p] * centre[q][i];
-        for (int i = 0; i < kHalf; ++i) {
+            for (const int i : indices(kHalf)) odd[i] += power[q - p] * centre[q][i];
+        for (const int i : indices(kHalf)) {
             halves.part[0][p][i] = even[i] + odd[i];
             halves.part[1][p][i] = even[i] - odd[i];
         }
@@ -50,7 +50,7 @@ public:
     // Returns the solution and replaces `b` by the residual.
     std::vector<double> solve(std::vector<double>& b) const {
         std::vector<double> x(q_.size());
-        for (std::size_t j = 0; j < q_.size(); ++j) x[j] = take_out(q_[j], b);
+        for (const auto j : indices(q_)) x[j] = take_out(q_[j], b);
         for (std::size_t j = q_.size(); j-- > 0;) {
             for (std::size_t k = j + 1; k < q_.size(); ++k) x[j] -= r_[j][k] * x[k];
             x[j] /= r_[j][j];
@@ -60,14 +60,14 @@ public:
 
     static double dot(const std::vector<double>& a, const std::vector<double>& b) {
         double sum = 0;
-        for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+        for (const auto i : indices(a)) sum += a[i] * b[i];
         return sum;
     }
 
 private:
     static double take_out(const std::vector<double>& q, std::vector<double>& b) {
         const double part = dot(q, b);
-        for (std::size_t i = 0; i < b.size(); ++i) b[i] -= part * q[i];
+        for (const auto i : indices(b)) b[i] -= part * q[i];
         return part;
     }
 
@@ -88,9 +88,9 @@ double Stencil::fit(double cutoff) {
     constexpr double kRidge = 1e-15;
     std::vector<double> k(kWaves), weight(kWaves);
     double energy = 0;
-    for (int j = 0; j < kWaves; ++j) {
-        const double angle = 0.5 * std::numbers::pi * (j + 0.5) / kWaves;
-        const auto at = static_cast<std::size_t>(j);
+    for (const int j : indices(kWaves)) {
+        const double angle = 0.5 * pi * (j + 0.5) / kWaves;
+        const auto at = std::size_t(j);
         k[at] = cutoff * std::sin(angle);
         const double square =
             std::pow(std::max(std::sin(angle), kLongest), kExponent) * std::cos(angle);
@@ -98,29 +98,28 @@ double Stencil::fit(double cutoff) {
         energy += square;
     }
     double left4 = 0, left5 = 0, size4 = 1;  // squared residuals of the fits of W_4 and W_5
-    for (int odd = 0; odd < 2; ++odd) {
+    for (const int odd : indices(2)) {
         const int unknowns = reach_ + 1 - odd;
-        std::vector<std::vector<double>> columns(static_cast<std::size_t>(unknowns));
-        for (int u = 0; u < unknowns; ++u) {
-            auto& column = columns[static_cast<std::size_t>(u)];
+        std::vector<std::vector<double>> columns(at(unknowns));
+        for (const int u : indices(unknowns)) {
+            auto& column = columns[at(u)];
             const int i = u + odd;
-            for (std::size_t j = 0; j < k.size(); ++j)
+            for (const auto j : indices(k))
                 column.push_back(
                     weight[j] *
                     (i == 0 ? 1.0 : 2.0 * (odd ? std::sin(k[j] * i) : std::cos(k[j] * i))));
-            for (int v = 0; v < unknowns; ++v)
+            for (const int v : indices(unknowns))
                 column.push_back(v == u ? kRidge * std::sqrt(energy) : 0.0);
         }
         const LeastSquares fit(std::move(columns));
         for (int q = odd; q < kDerivatives; q += 2) {
             const double sign = q / 2 % 2 == 0 ? 1.0 : -1.0;
             std::vector<double> target;
-            for (std::size_t j = 0; j < k.size(); ++j)
-                target.push_back(sign * weight[j] * std::pow(k[j], q));
-            target.resize(target.size() + static_cast<std::size_t>(unknowns), 0.0);
+            for (const auto j : indices(k)) target.push_back(sign * weight[j] * std::pow(k[j], q));
+            target.resize(target.size() + at(unknowns), 0.0);
             const double size = LeastSquares::dot(target, target);
             const std::vector<double> w = fit.solve(target);
-            for (int u = 0; u < unknowns; ++u) centre_[q][u + odd] = w[static_cast<std::size_t>(u)];
+            for (const int u : indices(unknowns)) centre_[q][u + odd] = w[at(u)];
             if (q == 4) {
                 left4 = LeastSquares::dot(target, target);
                 size4 = size;
@@ -144,8 +143,7 @@ Stencil Stencil::band_limited(double points_per_wave) {
     for (int reach = 4; last.first != points_per_wave; ++reach) {
         last.second = Stencil(reach);
         last.second.band_known_ = true;
-        if (last.second.fit(2 * std::numbers::pi / points_per_wave) < kWanted ||
-            reach == kMostReach)
+        if (last.second.fit(2 * pi / points_per_wave) < kWanted || reach == kMostReach)
             last.first = points_per_wave;
     }
     return last.second;
@@ -167,7 +165,7 @@ Stencil Stencil::polynomial(int reach) {
         }
         double factorial = 1;
         for (int q = 0; q < stencil.derivatives_; factorial *= ++q)
-            stencil.centre_[q][i] = factorial * c[static_cast<std::size_t>(q)] / scale;
+            stencil.centre_[q][i] = factorial * c[at(q)] / scale;
     }
     return stencil;
 }
@@ -178,7 +176,7 @@ void Stencil::weights(double t, int orders, double (*weight)[kTaps]) const {
     for (int r = 1; r < derivatives_; ++r) power[r] = power[r - 1] * t / r;
     Halves halves;
     add_series(centre_, derivatives_, power, orders, halves);
-    for (int o = 0; o < orders; ++o) {
+    for (const int o : indices(orders)) {
         const double* const right = halves.part[0][o];
         const double* const left = halves.part[1][o];
         for (int i = 1; i <= reach_; ++i) weight[o][reach_ - i] = left[i];

@@ -15,19 +15,19 @@ constexpr int kLanes = 8;  // partial sums, fixed so that a sum has the same bit
 RSC_ALWAYS_INLINE void contract_body(const double* corner, int points, int orders,
                                      const double (*wx)[kTaps], const double (*wy)[kTaps],
                                      double (*derivative)[kOrders]) {
-    for (int q = 0; q < orders; ++q) {
+    for (const int q : indices(orders)) {
         double line[kTaps] = {};
-        for (int j = 0; j < points; ++j) {
+        for (const int j : indices(points)) {
             const double* const z = corner + j * Patch::kStride;
             const double w = wy[q][j];
-            for (int i = 0; i < kTaps; ++i) line[i] += w * z[i];
+            for (const int i : indices(kTaps)) line[i] += w * z[i];
         }
-        for (int p = 0; p < orders; ++p) {
+        for (const int p : indices(orders)) {
             double lanes[kLanes] = {};
             for (int i = 0; i < kTaps; i += kLanes)
-                for (int l = 0; l < kLanes; ++l) lanes[l] += wx[p][i + l] * line[i + l];
+                for (const int l : indices(kLanes)) lanes[l] += wx[p][i + l] * line[i + l];
             double sum = 0;
-            for (int l = 0; l < kLanes; ++l) sum += lanes[l];
+            for (const int l : indices(kLanes)) sum += lanes[l];
             derivative[p][q] = sum;
         }
     }
@@ -86,8 +86,8 @@ std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch, 
         stencil.weights(y - ry, orders, wy);
         double d[kOrders][kOrders];
         const int corner = Patch::kMargin - stencil.reach();
-        contract(&patch.z[corner + static_cast<int>(ry)][corner + static_cast<int>(rx)],
-                 2 * stencil.reach() + 1, orders, wx, wy, d);
+        contract(&patch.z[corner + int(ry)][corner + int(rx)], 2 * stencil.reach() + 1, orders, wx,
+                 wy, d);
         const Step s = step_to_summit({d[1][0], d[0][1], d[2][0], d[1][1], d[0][2]});
         const double length = std::max(std::abs(s.x), std::abs(s.y));
         if (last && s.peak && length <= kArrived) {
@@ -134,10 +134,7 @@ int SummitClimber::clear_reach(int i, int j) const {
     int reach = stencils_.back().reach();
     if (!place_.periodic) reach = std::min({reach, i, j, place_.nx - 1 - i, ny_ - 1 - j});
     if (breaks_ && !breaks_->clear.empty())
-        reach = std::min<int>(
-            reach,
-            breaks_->clear[static_cast<std::size_t>(j) * static_cast<std::size_t>(place_.nx) +
-                           static_cast<std::size_t>(i)]);
+        reach = std::min<int>(reach, breaks_->clear[at(j) * at(place_.nx) + at(i)]);
     return reach;
 }
 
@@ -207,8 +204,8 @@ double SummitClimber::usual_bend() const {
     constexpr int reach = 3, around = reach + 1, side = 2 * around + 1,
                   points = (2 * reach + 1) * (2 * reach + 1);
     double along_x[points], along_y[points], z[side][side];
-    for (int l = 0; l < side; ++l)
-        for (int k = 0; k < side; ++k) z[l][k] = height(k - around, l - around);
+    for (const int l : indices(side))
+        for (const int k : indices(side)) z[l][k] = height(k - around, l - around);
     int n = 0;
     for (int l = 1; l + 1 < side; ++l)
         for (int k = 1; k + 1 < side; ++k, ++n) {
@@ -226,8 +223,7 @@ bool SummitClimber::smooth_around(const RefinedSummit& summit, double bend) cons
     // A summit half a step from its grid point in both directions rises by bend/8, and its
     // curvature may be several times the median.
     constexpr double most = 0.75;
-    const int ci = static_cast<int>(std::lround(summit.x)),
-              cj = static_cast<int>(std::lround(summit.y));
+    const int ci = int(std::lround(summit.x)), cj = int(std::lround(summit.y));
     double highest = -kInfinity;
     for (int dj = -1; dj <= 1; ++dj)
         for (int di = -1; di <= 1; ++di) highest = std::max(highest, height(ci + di, cj + dj));
@@ -277,7 +273,7 @@ std::optional<RefinedSummit> SummitClimber::summit_from(int i, int j, bool maxim
     bool broken = clear == 0;
     for (int reach = clear; reach > 0; --reach) {
         keep_within(i, j, reach);
-        const auto s = refine(stencils_[static_cast<std::size_t>(reach - 1)], patch_, travel);
+        const auto s = refine(stencils_[at(reach - 1)], patch_, travel);
         if (s && smooth_around(*s, bend)) return s;
         if (!s && clear == longest.reach()) break;  // no break is near
         broken |= s.has_value();
@@ -373,7 +369,7 @@ long drop_repeated(RefinedSummits& s, int nx, int ny, bool periodic) {
     const auto is_best = [&](std::size_t k) {
         const From& e = s.from[k];
         bool keep = true;
-        const int u = static_cast<int>(e.u), v = static_cast<int>(e.v);
+        const int u = int(e.u), v = int(e.v);
         const auto look = [&](int row, int first, int last) {
             for (auto f = place(row, first), end = place(row, last + 1); f < end && keep; ++f)
                 keep = !(better(*f, e) && same(*f, e));
@@ -393,7 +389,7 @@ long drop_repeated(RefinedSummits& s, int nx, int ny, bool periodic) {
     find_all(s.from.size(), kStarts, 0, is_best, best);
     const auto before = maxima();
     const std::vector<std::size_t> chosen(best.begin(), best.end());
-    for (std::size_t k = 0; k < chosen.size(); ++k) s.from[k] = s.from[chosen[k]];
+    for (const auto k : indices(chosen)) s.from[k] = s.from[chosen[k]];
     s.from.resize(chosen.size());
     s.found = selected(s.found, chosen);
     return before - maxima();

@@ -16,7 +16,7 @@ constexpr int kGroup = 8;
 // both axes.
 RSC_ALWAYS_INLINE void flag_near_body(const double* below, const double* z, const double* above,
                                       int points, std::uint64_t* flags) {
-    for (int i = 0; i < points; ++i) {
+    for (const int i : indices(points)) {
         const PointDifferences d = differences(below, z, above, i - 1, i, i + 1);
         const double determinant = d.determinant(), reach = kNearStep * determinant, x = d.step_x(),
                      y = d.step_y();
@@ -51,7 +51,7 @@ bool append_summit(double x, double y, double z, const SecondOrder& second, Curv
     // rounding.
     found.kappa2.push_back(std::fmin(gauss / kappa1, kappa1));
     const double angle = 0.5 * std::atan2(2.0 * c, a - b);
-    found.angle.push_back(angle > -0.5 * std::numbers::pi ? angle : 0.5 * std::numbers::pi);
+    found.angle.push_back(angle > -0.5 * pi ? angle : 0.5 * pi);
     return true;
 }
 
@@ -104,9 +104,9 @@ void find_starts(const RowPlace& place, const double* below, const double* z, co
         int k = 0;
         for (; k + kGroup <= points; k += kGroup) {
             std::uint64_t any = 0;
-            for (int g = 0; g < kGroup; ++g) any |= near[k + g];
+            for (const int g : indices(kGroup)) any |= near[k + g];
             if (!any) continue;
-            for (int g = 0; g < kGroup; ++g)
+            for (const int g : indices(kGroup))
                 if (near[k + g]) keep(k + g);
         }
         for (; k < points; ++k) keep(k);

@@ -21,7 +21,7 @@ public:
         total_ += row.row_;
         points_ += row.row_points_;
     }
-    double value() const { return points_ > 0 ? total_ / static_cast<double>(points_) : 0.0; }
+    double value() const { return points_ > 0 ? total_ / double(points_) : 0.0; }
 
 private:
     double row_ = 0, total_ = 0;
@@ -33,15 +33,15 @@ private:
 template <std::size_t count, class Rows>
 std::array<Mean, count> mean_of_rows(int first, int end, const Rows& rows) {
     constexpr int grain = 64;
-    std::vector<std::array<Mean, count>> sums(static_cast<std::size_t>(end - first));
+    std::vector<std::array<Mean, count>> sums(at(end - first));
     parallel_for(end - first, grain, 0, [&](int k) {
         std::array<Mean, count> own;
         rows(first + k, own);
-        sums[static_cast<std::size_t>(k)] = own;
+        sums[at(k)] = own;
     });
     std::array<Mean, count> means;
     for (const auto& row : sums)
-        for (std::size_t m = 0; m < count; ++m) means[m].add_row(row[m]);
+        for (const auto m : indices(count)) means[m].add_row(row[m]);
     return means;
 }
 
@@ -60,8 +60,7 @@ void HeightMap::allocate(int nx_, int ny_, std::ptrdiff_t stride_, bool zeros) {
     if (stride_ > (std::ptrdiff_t{1} << 44) / ny_)
         throw Error(Failure::no_memory, "no memory for a height map of " + std::to_string(nx_) +
                                             " x " + std::to_string(ny_) + " points");
-    data.reset(allocate_doubles(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(ny_),
-                                "a height map", zeros));
+    data.reset(allocate_doubles(at(stride_) * at(ny_), "a height map", zeros));
     nx = nx_;
     ny = ny_;
     stride = stride_;
@@ -72,8 +71,8 @@ HeightMap HeightMap::copy() const {
     made.allocate(nx, ny, nx);
     static_cast<PointGrid&>(made) = *this;
     made.periodic = periodic;
-    for (int j = 0; j < ny; ++j)
-        for (int i = 0; i < nx; ++i) made.row(j)[i] = (*this)(i, j);
+    for (const int j : indices(ny))
+        for (const int i : indices(nx)) made.row(j)[i] = (*this)(i, j);
     return made;
 }
 
@@ -81,10 +80,10 @@ Moments grid_moments(const HeightMap& map) {
     Moments m;
     if (map.nx < 1 || map.ny < 1) return m;
     const auto level = mean_of_rows<1>(0, map.ny, [&](int j, auto& sums) {
-        for (int i = 0; i < map.nx; ++i) sums[0].add(map(i, j));
+        for (const int i : indices(map.nx)) sums[0].add(map(i, j));
     });
     const auto m0 = mean_of_rows<1>(0, map.ny, [&, mean = level[0].value()](int j, auto& sums) {
-        for (int i = 0; i < map.nx; ++i) sums[0].add((map(i, j) - mean) * (map(i, j) - mean));
+        for (const int i : indices(map.nx)) sums[0].add((map(i, j) - mean) * (map(i, j) - mean));
     });
     m.m0 = m0[0].value();
     const bool profile = map.ny == 1;  // constant along y

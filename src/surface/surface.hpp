@@ -21,14 +21,9 @@ struct PointGrid {
     double step() const { return ny > 1 ? std::max(dx, dy) : dx; }
     double Lx() const { return nx * dx; }
     double Ly() const { return ny * dy; }
-    std::size_t points() const {
-        return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny);
-    }
+    std::size_t points() const { return at(nx) * at(ny); }
     // Number of point (i, j), row by row.
-    std::size_t index(int i, int j) const {
-        return static_cast<std::size_t>(j) * static_cast<std::size_t>(nx) +
-               static_cast<std::size_t>(i);
-    }
+    std::size_t index(int i, int j) const { return at(j) * at(nx) + at(i); }
 };
 
 // The index of a point on a periodic line of n points.
@@ -62,9 +57,9 @@ struct HeightMap : PointGrid {
 template <class Value>
 double mean_present(const HeightMap& map, Value value) {
     double total = 0, points = 0;
-    for (int j = 0; j < map.ny; ++j) {
+    for (const int j : indices(map.ny)) {
         double row = 0;
-        for (int i = 0; i < map.nx; ++i)
+        for (const int i : indices(map.nx))
             if (const double z = map(i, j); !std::isnan(z)) {
                 row += value(z, i, j);
                 ++points;

@@ -78,9 +78,8 @@ RowSource::RowSource(const Spectrum& wanted, int n, Normalise normalise, std::in
     // multiples of 64 bytes, and columns not a power of two apart
     column_stride_ = (n + 3) / 4 * 4 + 4;
     row_stride_ = (n + 2 + 7) / 8 * 8 + 8;
-    columns_data_.reset(allocate_doubles(
-        2 * static_cast<std::size_t>(columns_) * static_cast<std::size_t>(column_stride_),
-        "the modes of a synthetic surface"));
+    columns_data_.reset(allocate_doubles(2 * at(columns_) * at(column_stride_),
+                                         "the modes of a synthetic surface"));
     draw(spectrum, normalise, seed, realization, std::max(threads, 1), difference_step);
     if (exchanged_) sampled_.tensor = sampled_.tensor.transposed();
 }
@@ -103,18 +102,17 @@ void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t
                      std::int64_t realization, int threads, double difference_step) {
     const NoiseKey key{seed, realization};
     auto* const store = reinterpret_cast<std::complex<double>*>(columns_data_.get());
-    const auto doubles = static_cast<std::size_t>(2 * column_stride_);
-    std::vector<Buffer> drawn(static_cast<std::size_t>(threads));
+    const auto doubles = at(2 * column_stride_);
+    std::vector<Buffer> drawn(at(threads));
     for (auto& buffer : drawn)
         buffer.reset(allocate_doubles(doubles, "a column of a synthetic surface"));
-    const Buffer row(allocate_doubles(2 * static_cast<std::size_t>(row_stride_),
-                                      "a row of a synthetic surface"));
+    const Buffer row(allocate_doubles(2 * at(row_stride_), "a row of a synthetic surface"));
     const FftwPlan column_plan = make_plans(drawn[0].get(), row.get(), store);
     auto& plan = *column_plan;
 
     // The sums go by column and are added in order, whichever thread drew them.
     const Band limits = band(spectrum);
-    std::vector<ModeSums> sums(static_cast<std::size_t>(limits.highest_kx) + 1);
+    std::vector<ModeSums> sums(at(limits.highest_kx) + 1);
     // A column is complete when it is drawn.
     const bool at_once = spectrum.gaussian();
     const Differences differences(std::max(limits.highest_kx, limits.highest_ky),
@@ -123,7 +121,7 @@ void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t
         stopping_point();
         auto* const column = reinterpret_cast<std::complex<double>*>(drawn[worker].get());
         auto* const stored = store + kx * column_stride_;
-        sums[static_cast<std::size_t>(kx)] =
+        sums[at(kx)] =
             draw_column(spectrum, key, kx, n_, differences, spectrum.gaussian() ? column : stored);
         if (at_once) fftw_execute_dft(&plan, fftw(column), fftw(stored));
     });
@@ -147,7 +145,7 @@ void RowSource::scale_moments(const Spectrum& spectrum, Normalise normalise, con
                               const HeightShape& shape, double difference_step) {
     const double mean_square = normalise == Normalise::sample ? total.grid : total.expected;
     factor_ = spectrum.sigma / std::sqrt(mean_square);
-    const double step = 2.0 * std::numbers::pi / spectrum.L;
+    const double step = 2.0 * pi / spectrum.L;
     const double f2 = factor_ * factor_, k2 = step * step;
     const double f2k2 = f2 * k2, f2k4 = f2 * k2 * k2;
     const MomentTensor& t = total.tensor;
@@ -166,24 +164,24 @@ void RowSource::scale_moments(const Spectrum& spectrum, Normalise normalise, con
 }
 
 RowSource::Scratch::Scratch(const RowSource& source)
-    : coefficients_(allocate_doubles(static_cast<std::size_t>(kBlock * source.row_stride_),
-                                     "rows of a synthetic surface")) {}
+    : coefficients_(
+          allocate_doubles(at(kBlock * source.row_stride_), "rows of a synthetic surface")) {}
 
 // Rows j ... j + count - 1, count at most kBlock.
 void RowSource::make_rows(int j, int count, double* out, std::ptrdiff_t stride,
                           double* coefficients) const {
     const auto* const store = reinterpret_cast<const std::complex<double>*>(columns_data_.get());
     const double factor = factor_;
-    for (int kx = 0; kx < columns_; ++kx) {
+    for (const int kx : indices(columns_)) {
         const auto* const from = reinterpret_cast<const double*>(store + kx * column_stride_ + j);
         prefetch(from + std::min(kAhead, columns_ - 1 - kx) * 2 * column_stride_, 2 * count);
         double* const to = coefficients + 2 * kx;
-        for (int r = 0; r < count; ++r) {
+        for (const int r : indices(count)) {
             to[r * row_stride_] = factor * from[2 * r];
             to[r * row_stride_ + 1] = factor * from[2 * r + 1];
         }
     }
-    for (int r = 0; r < count; ++r) {
+    for (const int r : indices(count)) {
         double* const row = coefficients + r * row_stride_;
         std::fill(row + 2 * columns_, row + n_ + 2,
                   0.0);  // no modes here; the previous transform has overwritten the zeros
@@ -215,8 +213,7 @@ HeightMap RowSource::all(int threads, const Wanted& wanted) const {
     for (int t = 0; t < std::max(threads, 1); ++t) {
         scratch.emplace_back(*this);
         if (!direct)
-            block.emplace_back(allocate_doubles(static_cast<std::size_t>(wide * stride),
-                                                "rows of a synthetic surface"));
+            block.emplace_back(allocate_doubles(at(wide * stride), "rows of a synthetic surface"));
     }
     parallel_for((n_ + wide - 1) / wide, 1, std::max(threads, 1), [&](int b, std::size_t worker) {
         stopping_point();
@@ -224,7 +221,7 @@ HeightMap RowSource::all(int threads, const Wanted& wanted) const {
         double* const made = direct ? map.row(first) : block[worker].get();
         rows(first, count, made, stride, scratch[worker]);
         if (!exchanged_ && wanted)
-            for (int r = 0; r < count; ++r)
+            for (const int r : indices(count))
                 for (int i = 0; i < n_; i += piece) {
                     const double* const z = made + r * stride + i;
                     if (const int points = std::min(piece, n_ - i); wanted(first + r, i, points, z))

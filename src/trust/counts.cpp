@@ -28,8 +28,7 @@ double nominal_area(const Level& level, const Indenter& indenter, const Rectangl
                                           : std::abs(pixels.y(k) - indenter.y0) + 0.5 * pixels.dy;
         if (x * x + y * y > 0.99 * radius * radius) radius = std::max(radius, std::hypot(x, y));
     }
-    const double disc =
-        period.line() ? 2 * radius * period.length() : std::numbers::pi * radius * radius;
+    const double disc = period.line() ? 2 * radius * period.length() : pi * radius * radius;
     return surface.known() ? std::min(disc, surface.Lx * surface.Ly) : disc;
 }
 
@@ -44,7 +43,7 @@ std::int32_t border_contacts(const Level& level, const Indenter& indenter, const
         for (std::size_t k = 0; k < level.x.size() && gap > 0; ++k) {
             const double distance =
                 std::max(std::hypot(level.x[k] - x, level.y[k] - y), level.a[k]);
-            gap -= level.f[k] / (std::numbers::pi * indenter.E_star * distance);
+            gap -= level.f[k] / (pi * indenter.E_star * distance);
         }
         if (!(gap > 0)) continue;
         const bool counted = std::ranges::any_of(touching, [&](const Vec2& t) {

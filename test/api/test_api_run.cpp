@@ -77,7 +77,7 @@ void level_by_calls(const Reader& file, rsc_contact* contact, std::size_t s,
           residual == of("residual"));
     CHECK(double(candidates) == of("candidates") && double(iterations) == of("iterations"));
     // Spots: the file's contacts of this level, counted from 1 there.
-    const auto first = static_cast<std::size_t>(of("contact_start")) - 1;
+    const auto first = std::size_t(of("contact_start")) - 1;
     CHECK(double(n) == of("contact_count"));
     std::vector<std::int32_t> which(n);
     Values force(n), radius(n), penetration(n);
@@ -172,8 +172,8 @@ TEST(api_run) {
     const Folder folder;
     // An oblong measured map, its steps different along x and y.
     map_files::Map map{24, 16, 2e-5, 3e-5, {}};  // in m: mm of the case are 1e3 of it
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i)
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx))
             map.z.push_back(((7 * i * i + 11 * j * j + 5 * i * j) % 61) * 1e-7);
     std::ofstream(folder / "map.gwy", std::ios::binary)
         << map_files::gwy_file(map_files::gwy_channel(0, "Topography", map));

@@ -24,7 +24,7 @@ SolverOptions options(Method method, LawKind law = LawKind::hertz) {
 void shape(Asperities& a, LawKind law, double deepest, unsigned seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> uniform(0, 1);
-    for (std::size_t i = 0; i < a.size(); ++i) {
+    for (const auto i : indices(a)) {
         const double kappa = 1 / a.radius[i], root = std::sqrt(std::pow(10.0, uniform(random)));
         a.kappa1.push_back(kappa * root);
         a.kappa2.push_back(kappa / root);

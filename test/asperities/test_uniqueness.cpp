@@ -161,7 +161,7 @@ TEST(several_after_any_way) {
     const SolverOptions options{.tolerance = kTolerance};
     const auto path = [&] { return asperity_path(p, {E_star, kInfinity, 0, 0}, options); };
     int several = 0;
-    for (int k = 0; k < 10; ++k) {
+    for (const int k : indices(10)) {
         const double Z0 = 0.4 - 0.05 * k;
         const Level truth = path().at_separation(Z0);
         several += !truth.unique;

@@ -31,7 +31,7 @@ Spots spots(int nx, int ny) {
         for (const int i : indices(nx))
             if (const double p = plane[j * nx + i]; p > 0) {
                 all.column.push_back(i);
-                all.p.push_back(static_cast<float>(p));
+                all.p.push_back(float(p));
             }
         all.rows.push_back(all.p.size());
     }

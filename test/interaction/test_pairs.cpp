@@ -149,8 +149,8 @@ TEST(instruction_sets) {
     std::vector<float> f(p.f.begin(), p.f.end());
     const double unit = 0x1p30;
     for (const std::size_t i : indices(n)) {
-        x[i] = static_cast<std::int32_t>(p.x[i] * unit);
-        y[i] = static_cast<std::int32_t>(p.y[i] * unit);
+        x[i] = std::int32_t(p.x[i] * unit);
+        y[i] = std::int32_t(p.y[i] * unit);
     }
     int found = 0;
     for (const char* name : {"generic", "sse2", "avx2", "avx512"}) {

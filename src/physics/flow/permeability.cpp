@@ -211,7 +211,7 @@ public:
         constexpr double kError = 1e-11;
         Pressures p{std::vector<double>(map_.points(), 0.0),
                     std::vector<double>(map_.points(), 0.0)};
-        for (int round = 0; round < kRounds; ++round) {
+        for (const int round : indices(kRounds)) {
             const std::array<double, 2> error = improve(p);
             const Permeability K = dissipation(p);
             if (round > 0 && error[0] <= kError * K.xx && error[1] <= kError * K.yy) return p;

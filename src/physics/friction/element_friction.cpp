@@ -109,9 +109,8 @@ std::vector<SpotSlip> ElementFriction::spots() const {
     for (const auto k : indices(n)) {
         SpotSlip& spot = spots.at(at(level->pixels.contact[k]));
         const double x = t.q[k], y = t.q[n + k];
-        spot.radius += area / std::numbers::pi;
-        if (std::hypot(x, y) < (1 - 1e-9) * t.limit[k])
-            spot.stick_radius += area / std::numbers::pi;
+        spot.radius += area / pi;
+        if (std::hypot(x, y) < (1 - 1e-9) * t.limit[k]) spot.stick_radius += area / pi;
         spot.force.x += area * x;
         spot.force.y += area * y;
     }

@@ -159,8 +159,7 @@ public:
           cycles_(cycles_of(bodies.settings)),
           friction_{bodies.settings.solids.friction,
                     tangential_ratio(bodies.settings.solids.E, bodies.settings.solids.nu)} {
-        const double angle =
-            bodies.settings.output.sliding_direction.value_or(0) * std::numbers::pi / 180;
+        const double angle = bodies.settings.output.sliding_direction.value_or(0) * pi / 180;
         along_ = {std::cos(angle), std::sin(angle)};
         const std::vector<double>& path = settings_.indentation.sliding_path;
         for (std::size_t k = 0; k + 1 < path.size(); k += 2)

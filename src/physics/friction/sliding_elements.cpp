@@ -127,7 +127,7 @@ void TractionSolver::descend(int most_steps, double reduction) {
     std::vector<double> share(n_);  // of slipping pixels, by which they turn
     for (const auto k : indices(n_)) share[k] = 1 / std::sqrt(1 + bend_[k] / products_.local());
     double last = 0, first = 0;
-    for (int step = 0; step < most_steps; ++step) {
+    for (const int step : indices(most_steps)) {
         for (const auto k : indices(n_)) {
             from_[k] = float(share[k] * residual_[k] / products_.local());
             from_[n_ + k] = float(share[k] * residual_[n_ + k] / products_.local());

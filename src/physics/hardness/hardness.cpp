@@ -7,8 +7,6 @@
 namespace rsc {
 namespace {
 
-using std::numbers::pi;
-
 using Spread = Truncation::Spread;
 
 // The slope decreases where a reloaded asperity continues to yield: the law is not convex.

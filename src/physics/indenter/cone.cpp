@@ -35,9 +35,8 @@ public:
     double edge(double) const override { return 0; }
     // Sneddon, Int. J. Eng. Sci. 3 (1965): u = (pi/2) a slope, N = (2/pi) E* u^2/slope.
     std::optional<SmoothContact> smooth(double E_star) const override {
-        const double a = 2 / (std::numbers::pi * slope_);  // over u
-        return SmoothContact{2 / std::numbers::pi * E_star / slope_, 2, std::numbers::pi * a * a,
-                             2};
+        const double a = 2 / (pi * slope_);  // over u
+        return SmoothContact{2 / pi * E_star / slope_, 2, pi * a * a, 2};
     }
     std::vector<Vec2> outline(double height) const override { return circle(height / slope_); }
 

@@ -19,7 +19,7 @@ public:
 
     std::string text(const std::string& unit) const override {
         const ShapeKeys& k = keys();
-        const double degrees = k.angle * 180 / std::numbers::pi;
+        const double degrees = k.angle * 180 / pi;
         if (k1_ > 0 && k2_ > 0)
             return format("paraboloid of radii %g and %g %s, the first at %g degrees", k.radii[0],
                           k.radii[1], unit.c_str(), degrees);
@@ -75,7 +75,7 @@ public:
         const EllipseFactors f = ellipse_factors(std::max(k1_, k2_) / std::min(k1_, k2_));
         const double R = 1 / std::sqrt(k1_ * k2_);
         return SmoothContact{4.0 / 3 * E_star * std::sqrt(R) * std::pow(f.F2, -1.5), 1.5,
-                             std::numbers::pi * f.F1 * f.F1 * R / f.F2, 1};
+                             pi * f.F1 * f.F1 * R / f.F2, 1};
     }
     std::vector<Vec2> outline(double height) const override {
         std::vector<Vec2> curve;

@@ -45,7 +45,7 @@ public:
     // Sharp rim only: N = 2 E* a u over the whole flat end.
     std::optional<SmoothContact> smooth(double E_star) const override {
         if (r_ > 0) return std::nullopt;
-        return SmoothContact{2 * E_star * a_, 1, std::numbers::pi * a_ * a_, 0};
+        return SmoothContact{2 * E_star * a_, 1, pi * a_ * a_, 0};
     }
     std::vector<Vec2> outline(double height) const override {
         return circle(a_ +

@@ -34,7 +34,7 @@ std::vector<Vec2> circle(double radius) {
     constexpr int points = 180;
     std::vector<Vec2> curve;
     for (const int k : indices(points)) {
-        const double t = 2 * std::numbers::pi * k / points;
+        const double t = 2 * pi * k / points;
         curve.push_back({radius * std::cos(t), radius * std::sin(t)});
     }
     return curve;

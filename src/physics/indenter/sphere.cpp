@@ -56,8 +56,7 @@ public:
     double hertz_radius() const override { return R_star_; }
     // Hertz (Johnson 1985, section 4.2): N = (4/3) E* sqrt(R) u^(3/2), A = pi R u.
     std::optional<SmoothContact> smooth(double E_star) const override {
-        return SmoothContact{4.0 / 3 * E_star * std::sqrt(R_star_), 1.5, std::numbers::pi * R_star_,
-                             1};
+        return SmoothContact{4.0 / 3 * E_star * std::sqrt(R_star_), 1.5, pi * R_star_, 1};
     }
     std::vector<Vec2> outline(double height) const override { return circle(radius_at(height)); }
 

@@ -15,7 +15,7 @@ LoadMemory::LoadMemory(const Relaxation& body)
 std::vector<double> LoadMemory::rest() const {
     std::vector<double> r(places_.size(), 0.0);
     for (const auto k : indices(y_))
-        for (std::size_t i = 0; i < r.size(); ++i)
+        for (const auto i : indices(r))
             r[i] += passage_.lags[k].stay * y_[k][i] + passage_.lags[k].before * f_[i];
     return r;
 }

@@ -147,7 +147,7 @@ Remains RelaxingAsperities::remains(const Level& level) const {
         }
         const Vec2 image =
             indenter_.image(asperities_.x[at(asperity)], asperities_.y[at(asperity)]);
-        const double a = std::sqrt(widest[i] / std::numbers::pi);
+        const double a = std::sqrt(widest[i] / pi);
         all.add_contact(asperity, image.x, image.y, load_[i], a, 0);
         if (!level.spots.empty()) all.spots.push_back({image.x, image.y, a, a, 0});
     }

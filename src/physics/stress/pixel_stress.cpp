@@ -66,7 +66,7 @@ StressTensor corner_stress(double x, double y, double z, double nu,
     StressTensor s = under_pressure(corner, nu);
     if (sliding.x != 0) s += under_traction(corner, nu) * sliding.x;
     if (sliding.y != 0) s += exchanged(under_traction(Corner(y, x, z), nu)) * sliding.y;
-    return s * (0.5 / std::numbers::pi);
+    return s * (0.5 / pi);
 }
 
 StressTensor pixel_stress(double x, double y, double z, double a, double b, double nu,

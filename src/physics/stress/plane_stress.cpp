@@ -112,8 +112,7 @@ std::array<Complex, 6> mode_stress(double kx, double ky, double z, const Stresse
 }
 
 void solve_periodic(Planes& planes, const PointGrid& grid, const StressedBody& body, double depth) {
-    const double unit_x = 2 * std::numbers::pi / grid.Lx(),
-                 unit_y = 2 * std::numbers::pi / grid.Ly();
+    const double unit_x = 2 * pi / grid.Lx(), unit_y = 2 * pi / grid.Ly();
     parallel_for(planes.ny, kRows, 0, [&](int j) {
         const int row = 2 * j <= planes.ny ? j : j - planes.ny;
         for (int i = 0; i <= planes.nx / 2; ++i) {
@@ -317,7 +316,7 @@ GridWindow stressed_window(const PointGrid& grid, const LevelPixels& pixels, con
         areas[at(c)] += 1;
     }
     const double largest = areas.empty() ? 0.0 : std::ranges::max(areas) * grid.dx * grid.dy,
-                 beyond = std::max(2 * depth, std::sqrt(largest / std::numbers::pi));
+                 beyond = std::max(2 * depth, std::sqrt(largest / pi));
     const auto widened = [&](int first, int count, double step, int n, double repeats, int& begin,
                              int& size) {
         const int margin = std::max(4, int(std::ceil(std::min(beyond / step, 1.0 * n))));

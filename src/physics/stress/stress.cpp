@@ -28,7 +28,7 @@ StressMeasures measures_of(const StressTensor& s) {
     const double cosine = std::clamp(1.5 * std::sqrt(3.0) * J3 / (J2 * std::sqrt(J2)), -1.0, 1.0);
     const double angle = std::acos(cosine) / 3;  // 0 ... pi/3
     const double most = radius * std::cos(angle);
-    const double least = radius * std::cos(angle + 2 * std::numbers::pi / 3);
+    const double least = radius * std::cos(angle + 2 * pi / 3);
     return {std::sqrt(3 * J2), 0.5 * (most - least), mean + most};
 }
 

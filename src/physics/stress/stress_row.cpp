@@ -119,7 +119,7 @@ public:
         body_.period = bodies.indenter.period;
         body_.nu = settings.solids.nu[0];
         if (!settings.output.sliding_direction) return;
-        const double angle = *settings.output.sliding_direction * std::numbers::pi / 180;
+        const double angle = *settings.output.sliding_direction * pi / 180;
         body_.sliding = {settings.solids.friction * std::cos(angle),
                          settings.solids.friction * std::sin(angle)};
     }

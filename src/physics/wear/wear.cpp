@@ -31,7 +31,7 @@ public:
                 level = leg.solve(part / n, stage * length, lasting * length);
                 return level.converged;
             };
-            for (int k = 0; k < n; ++k)
+            for (const int k : indices(n))
                 if (!solve(k + stage, 1 - stage) || !solve(k + 1, stage)) return level;
             if (last && (settled(leg, *last, level) || n >= kMostSteps)) return level;
             last = level;

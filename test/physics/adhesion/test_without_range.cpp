@@ -36,7 +36,7 @@ struct Jkr {
     // From the contact at first touch to pull-off and back.
     double lost() const {
         double sum = 0, high = radius(0);
-        for (int i = 0; i < 100000; ++i) {
+        for (const int i : indices(100000)) {
             const double a = last() + (high - last()) * i / 1e5,
                          b = last() + (high - last()) * (i + 1) / 1e5;
             sum -= 0.5 * (force(a) + force(b)) * (approach(b) - approach(a));
@@ -78,7 +78,7 @@ Loop loop(int n, int levels) {
         CHECK(error <= level.force_error_expected * std::abs(level.force));
         CHECK(std::abs(level.area / (pi * a * a) - 1) <= level.area_error_expected);
     };
-    for (int k = 0; k < levels; ++k) go((0.05 + 1.45 * k / levels) * unit);
+    for (const int k : indices(levels)) go((0.05 + 1.45 * k / levels) * unit);
     for (int k = 0; k <= 2 * levels; ++k) go((1.5 - 2.2 * k / (2 * levels)) * unit);
     for (int k = 1; k <= levels; ++k) go((-0.7 - 0.5 * k / levels) * unit);
     CHECK(level.contacts == 0 && level.force == 0);
@@ -109,7 +109,7 @@ struct WavySphere {
     std::vector<double> heights() const {
         std::vector<double> all(kRadii + 1);
         for (int i = 0; i <= kRadii; ++i)
-            for (int k = 0; k < 200; ++k) {
+            for (const int k : indices(200)) {
                 const double r = radius(i) * std::sin((k + 0.5) / 200 * pi / 2),
                              q = 2 * pi / lambda;
                 all[i] += radius(i) * (r + A * q * std::sin(q * r)) * pi / 400;
@@ -127,7 +127,7 @@ struct WavySphere {
     // many approaches; what is not released by the bodies is lost.
     void go(double most) {
         int i = 0;
-        for (int k = 0; k < 30000; ++k) {
+        for (const int k : indices(30000)) {
             const double D = k < 10000 ? most * k / 1e4 : most - 4 * most * (k - 10000) / 2e4;
             const auto move = [&](int to) {
                 lost += std::abs(w - release(std::max(i, to), D)) * pi *
@@ -150,8 +150,8 @@ TEST(test_wavy_sphere) {
     WavySphere truth{smooth.w, 0.0562 * unit, 0.53 * smooth.at_rest(), 2 * smooth.at_rest()};
     truth.go(0.28 * unit);
     HeightMap map = sphere(smooth, 128);
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) {
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx)) {
             double& z = map.row(j)[i];
             z -= truth.A * (1 - std::cos(2 * pi * std::sqrt(-2 * z) / truth.lambda));
         }
@@ -178,7 +178,7 @@ TEST(test_number_of_levels) {
 TEST(test_force) {
     const Jkr truth{1e-4};
     constexpr int n = 24;
-    for (int place = 0; place < 6; ++place) {
+    for (const int place : indices(6)) {
         const HeightMap map = sphere(truth, n, 0.1 + 0.05 * place, 0.07 * place);
         const auto contact = make_element_contact(map, flat_over(map), sharp(truth.w));
         for (const double N : {0.5, 0.1, 0.0, -0.1, -0.5, -0.9}) {

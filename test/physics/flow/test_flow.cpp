@@ -334,7 +334,7 @@ TEST(the_distribution_of_gaps) {
     const Reader one = solved("1", "fields = 'gap' field_levels = 0.01, 0.02, 0.3");
     const auto gap = one.values("field_gap");
     const std::size_t points = gap.size() / 3;
-    const auto step = static_cast<std::size_t>(one.values("pdf_step")[0]) - 1;
+    const auto step = at(one.values("pdf_step")[0]) - 1;
     const double width = 2 * one.values("gap_bin")[0];
     std::vector<double> counts(26, 0.0);
     for (std::size_t k = step * points; k < (step + 1) * points; ++k)

@@ -18,7 +18,7 @@ constexpr std::size_t kFirst = 21, kPoints = 62;  // of first loading, and with 
 // The component of a curve of two at a level.
 Values component(const Values& all, std::size_t level, std::size_t which) {
     Values one;
-    for (std::size_t k = 0; k < kPoints; ++k) one.push_back(all[2 * (level * kPoints + k) + which]);
+    for (const auto k : indices(kPoints)) one.push_back(all[2 * (level * kPoints + k) + which]);
     return one;
 }
 
@@ -123,7 +123,7 @@ TEST(ellipse_along_its_axes) {
     constexpr double nu = 0.3, c = nu / (1 - nu), ratio = 4;
     double normal = 0, along = 0, across = 0;
     constexpr int parts = 2000;
-    for (int k = 0; k < parts; ++k) {
+    for (const int k : indices(parts)) {
         const double f = std::numbers::pi * (k + 0.5) / parts;
         const double w = 1 / std::hypot(std::cos(f) / ratio, std::sin(f));
         normal += w;
@@ -133,8 +133,8 @@ TEST(ellipse_along_its_axes) {
     PointGrid grid{200, 60, 0.01, 0.01, 0, 0};
     LevelPixels contact;
     contact.columns = grid.nx;
-    for (int j = 0; j < grid.ny; ++j)
-        for (int i = 0; i < grid.nx; ++i) {
+    for (const int j : indices(grid.ny))
+        for (const int i : indices(grid.nx)) {
             const double x = grid.x(i) - 0.995, y = grid.y(j) - 0.295, r = x * x / 16 + y * y;
             if (r >= 0.0484) continue;
             contact.index.push_back(std::int32_t(grid.index(i, j)));
@@ -188,8 +188,8 @@ TEST(rough_bodies_without_poissons_effect_superpose) {
 LevelPixels hertz(const PointGrid& grid, double a) {
     LevelPixels contact;
     contact.columns = grid.nx;
-    for (int j = 0; j < grid.ny; ++j)
-        for (int i = 0; i < grid.nx; ++i) {
+    for (const int j : indices(grid.ny))
+        for (const int i : indices(grid.nx)) {
             const double r = std::hypot(grid.x(i), grid.y(j)) / a;
             if (r >= 1) continue;
             contact.index.push_back(std::int32_t(grid.index(i, j)));
@@ -248,7 +248,7 @@ Values slowly(const std::vector<Values>& T, const Values& limit, const Values& b
     project(q);
     Values y = q;
     double t = 1;
-    for (int step = 0; step < 20000; ++step) {
+    for (const int step : indices(20000)) {
         Values z = y;
         for (const auto i : indices(2 * n))
             z[i] += (b[i] - std::inner_product(y.begin(), y.end(), T[i].begin(), 0.0)) / norm;
@@ -273,7 +273,7 @@ Values slowly(const std::vector<Values>& T, const Values& limit, const Values& b
 TEST(small_contacts_against_a_slow_solver) {
     std::mt19937 random(7);
     const auto uniform = [&] { return std::uniform_real_distribution<>(-1, 1)(random); };
-    for (int number = 0; number < 50; ++number) {
+    for (const int number : indices(50)) {
         PointGrid grid{3 + number % 3, 3 + number % 2, 0.25, 0.25, 0, 0};
         const double nu = 0.5 * std::abs(uniform());
         const int kind = number % 3;
@@ -286,8 +286,8 @@ TEST(small_contacts_against_a_slow_solver) {
         TractionProducts products(substrate_of(indenter), 2 / friction.ratio - 2, indenter.period,
                                   grid);
         std::vector<Pixel> all;
-        for (int j = 0; j < grid.ny; ++j)
-            for (int i = 0; i < grid.nx; ++i) all.push_back({i, j});
+        for (const int j : indices(grid.ny))
+            for (const int i : indices(grid.nx)) all.push_back({i, j});
         products.set_pixels(all);
         const std::size_t n = all.size();
         std::vector<Values> T;  // symmetric: its rows are the products with unit tractions
@@ -298,7 +298,7 @@ TEST(small_contacts_against_a_slow_solver) {
             T.push_back(u);
         }
         Values q(2 * n, 0.0);
-        for (int step = 0; step < 4; ++step) {
+        for (const int step : indices(4)) {
             LevelPixels contact;
             contact.columns = grid.nx;
             Values limit(n, 0.0);
@@ -330,8 +330,8 @@ TEST(kernels_of_cerruti) {
     for (const auto& [x, y] : {std::pair{3.0, 1.0}, {0.2, 2.0}, {4.0, -3.0}}) {
         constexpr int n = 400;
         double xx = 0, xy = 0;
-        for (int i = 0; i < n; ++i)
-            for (int j = 0; j < n; ++j) {
+        for (const int i : indices(n))
+            for (const int j : indices(n)) {
                 const double X = x + a - 2 * a * (i + 0.5) / n, Y = y + b - 2 * b * (j + 0.5) / n,
                              r = std::hypot(X, Y);
                 const double part = 4 * a * b / n / n / (r * r * r);

@@ -332,7 +332,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
                 n += flows;
             }
             for (const auto i : indices(deepest))
-                lost += pressed_flat(t, static_cast<std::int32_t>(i), deepest[i]).lost;
+                lost += pressed_flat(t, std::int32_t(i), deepest[i]).lost;
             plastic.push_back(n);
             work.push_back(t.hertz ? lost : level(k, s).plastic_work);
         }
@@ -342,7 +342,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
     if (yields && !t.elements) {
         Vector rest;
         for (const auto i : indices(deepest))
-            rest.push_back(t.hertz ? pressed_flat(t, static_cast<std::int32_t>(i), deepest[i]).rest
+            rest.push_back(t.hertz ? pressed_flat(t, std::int32_t(i), deepest[i]).rest
                                    : t.r[0].remains.residual_depths[i]);
         f.same("asperity_residual_depth", rest, 1e-9);
     }

@@ -123,7 +123,7 @@ inline void contact_mask(CheckedFile& f, const Truth& t) {
         return above ? next : near;
     };
     for (const auto k : indices(steps)) {
-        const Contacts2& c = t.contacts[0][static_cast<std::size_t>(steps[k]) - 1];
+        const Contacts2& c = t.contacts[0][at(steps[k]) - 1];
         const auto level = std::span(mask).subspan(k * x.size() * y.size(), x.size() * y.size());
         std::size_t touching = 0;
         for (const double flag : level) touching += flag == 1 || flag == 2;
