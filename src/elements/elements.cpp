@@ -310,8 +310,8 @@ ElementsOutcome ElementsSolver::solve(const std::vector<Pixel>& pixels,
         start(pixels, g0, p);
     draw(p);
     ElementsOutcome outcome;
-    outcome.converged = pixels.empty();
-    if (!pixels.empty()) outcome = iterate(tolerance, most_iterations, true);
+    outcome.converged = set_.empty();  // nothing touches
+    if (!set_.empty()) outcome = iterate(tolerance, most_iterations, true);
     spread(p);
     outcome.products = products_.count() - before;
     return outcome;

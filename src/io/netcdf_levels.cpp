@@ -83,6 +83,9 @@ void ResultTable::error_of(const LevelQuantity& q, const Names& shape) {
     std::vector<double> errors;
     for (const LevelValues& level : o_.rows)
         for (const auto c : indices(q.components())) errors.push_back(q.error(level, c));
+    // Later levels whose smallest value is the same have the same error.
+    for (std::size_t k = 0; q.least && k < errors.size(); ++k)
+        if (k % o_.steps > 0 && std::isnan(errors[k])) errors[k] = errors[k - 1];
     add_absent(q.error_name(), shape, "1", std::string("expected relative error of ") + q.name,
                errors, "not exceeded in nine of ten cases; follows from border_share");
 }
@@ -146,7 +149,19 @@ void ResultTable::least_of(const LevelQuantity& q) {
         }
         if (without_state) least[k] = kNotComputed;
     }
-    add_absent(q.least, {"realization"}, units(q), q.least_meaning, least, q.least_comment);
+    std::vector<double> errors;
+    for (const auto k : indices(least)) {
+        const double error = error_of_least_force({&o_.row(k, 0), o_.steps});
+        errors.push_back(least[k] < 0 ? error : kNotComputed);
+    }
+    const std::string error_name = std::string(q.least) + "_error_expected";
+    NetcdfAttributes error;
+    if (computed(errors)) error = {{"ancillary_variables", error_name}};
+    add_absent(q.least, {"realization"}, units(q), q.least_meaning, least, q.least_comment, error);
+    if (computed(errors))
+        add_absent(error_name, {"realization"}, "1",
+                   std::string("expected relative error of ") + q.least, errors,
+                   "that of N at the level with the smallest force");
 }
 
 bool ResultTable::computed(const std::vector<double>& values) {

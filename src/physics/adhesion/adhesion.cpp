@@ -28,6 +28,12 @@ void check_adhesion(const Case& settings, const Complain& complain) {
         complain({"solids%adhesion_range", "solids%adhesion"}, "needs solids%adhesion > 0");
 }
 
+// Of the smallest force, at the level that has it.
+double error_at_least_force(const LevelValues& level, std::size_t) {
+    const bool here = level.force < 0 && level.force <= level.least_force;
+    return here ? error_of_least_force({&level, 1}) : kNotComputed;
+}
+
 std::vector<LevelQuantity> adhesion_quantities() {
     using V = LevelValues;
     return {
@@ -48,6 +54,7 @@ std::vector<LevelQuantity> adhesion_quantities() {
          .force_power = 1,
          .meaning = "smallest force since the first level",
          .comment = "adhesion: including forces between levels; pull_off_force is its last value",
+         .own_error = error_at_least_force,
          .always = false,
          .least = "pull_off_force",
          .least_meaning = "smallest force since the first level",

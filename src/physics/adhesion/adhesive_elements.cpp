@@ -44,7 +44,8 @@ public:
 private:
     template <class Archive, class Self>
     static void exchange(Archive& a, Self& state) {
-        a(state.q, state.share, state.p_before, state.margin, state.bulged, state.accepted.energy);
+        a(state.q, state.share, state.p_before, state.margin, state.bulged, state.accepted.energy,
+          state.accepted.conjugate);
     }
     double attraction() const override { return state_.z0; }
     void accept(Level&) override {
@@ -94,6 +95,7 @@ private:
             bad_input(
                 "the state of the contact cannot be reached again: the solver does not converge");
         state_.accepted.energy = state_.now.energy;
+        state_.accepted.conjugate = state_.now.conjugate;
         state_.keep();
     }
 

@@ -35,9 +35,10 @@ void require_resolved(double E_star, const Adhesion& adhesion, double step);
 // Error(bad_input) for options that are not available with adhesion, and for a range below half a
 // pixel. Of the functions of Model:
 //   energy()      elastic energy minus s0 (z0 - w) integrated over the attracting points;
-//   energy_lost of a level: a step between separations that seems to lose energy, its work minus
-//                 the change of the energy, is divided until it does not or is so short that it is
-//                 a jump. A step that loses less than loss_share() counts as reversible
+//   energy_lost of a level: that of the way from the last one, which is divided where the loss is
+//                 least known, with a range into ten parts that attract at most, so that no level
+//                 takes many times the work of a first one. A part that loses less than
+//                 loss_share() counts as reversible, unless both its ends prove a loss
 //   stiffness()   dN/dZ0 for fixed attracting points
 //   move_tip()    follows the state along the straight (on a surface that repeats, the shortest)
 //                 way of the tip at the last separation, in pieces of at most a quarter of a pixel;

@@ -14,12 +14,13 @@ namespace {
 constexpr double kCoarsest = 0.5, kFine = 4;
 // Without a range: largest side of a pixel over the thickness of a layer.
 constexpr double kOfLayer = 0.5;
-// Energy that a step between separations may seem to lose, relative to w times the area that
-// attracts: if it seems to lose more, it contains a jump or its trapezoidal work is not accurate,
-// and it is divided until it is this share of a level's way.
-constexpr double kShortest = 1.0 / 4096;
-// Without a range: the same, and the error of the work of a step, relative to it.
+// Without a range: shortest part of the way to a level, relative to it, and the error of the work of
+// a part.
 constexpr double kShortestOfEdges = 1.0 / 16, kWorkError = 0.01;
+// With a range: parts into which the way is divided at most, to see what it loses.
+constexpr int kMostParts = 10;
+constexpr double kOfJump = 0.1;       // of w times the area that changes, is lost in a jump
+constexpr double kOnTheWay = 1e-3;    // tolerance of pressures at the ends of these parts
 constexpr std::size_t kFewest = 8;    // least number of points of a jump, if there are several
 constexpr double kInnerError = 1e-3;  // error of products in iterations
 constexpr double kEarly = 0.1;        // error of pressures relative to the change of the attraction
@@ -234,8 +235,9 @@ void AdhesivePixels::set_clearances() {
 void AdhesivePixels::forget() {
     accepted = now = {};
     tried.reset();
+    tracked.clear();
     margin = bulged = 0;
-    for (std::vector<double>* values : {&q, &share, &gap_before, &p_before})
+    for (std::vector<double>* values : {&q, &share, &p_before})
         values->assign(clearance.size(), 0.0);
 }
 
@@ -255,6 +257,7 @@ void AdhesivePixels::gather(double Z) {
             const std::size_t k = at(place({i, j}));
             if (share[k] > 0 || clearance[k] > Z - z0 - margin - bulged) include(i, j);
         }
+    for (const std::int32_t k : tracked) wanted[at(k)] = 1;
     std::vector<Pixel> pixels;
     for (const int j : indices(heights.ny))
         for (const int i : indices(heights.nx)) {
@@ -370,19 +373,9 @@ bool AdhesivePixels::press(double Z, double tolerance, Level& level) {
     return outcome.converged;
 }
 
-// Finds the state at Z by renewing the attraction from the present one. As a stronger attraction
-// only closes gaps and so becomes stronger still, the states on the way are all on one side of the
-// nearest equilibrium if the separation has changed, and do not pass it. Returns false if it does
-// not converge.
-bool AdhesivePixels::renew(double Z, Level& level) {
-    if (edges) return balance_edges(Z, level);
-    gather(Z);
-    std::vector<double> next;
-    Iterates iterates;
-    const double aim = std::max(options.tolerance, kFinest);
-    double tolerance = std::max(aim, kEarly * kEarly);
-    for (int round = 0; round < kMost; ++round) {
-        stopping_point();
+// Pressures and gaps at Z under the present attraction. Returns false if this does not converge.
+bool AdhesivePixels::load(double Z, double tolerance, Level& level) {
+    for (;;) {
         std::vector<double> p(reach.size());
         for (const auto k : indices(reach)) p[k] = s0 * share[at(reach[k])];
         lift = deflections(p, tolerance);
@@ -402,6 +395,42 @@ bool AdhesivePixels::renew(double Z, Level& level) {
         p = deflections(p, tolerance);
         for (const auto k : indices(reach))
             gap[at(reach[k])] = p[k] - (lift[k] + clearance[at(reach[k])] - Z);
+        return true;
+    }
+}
+
+// The energy of a state that has just been found, and its gaps at the tracked points, by products in
+// full accuracy.
+void AdhesivePixels::open(Past& state) {
+    gather(state.separation);
+    std::vector<double> p(reach.size());
+    for (const auto k : indices(reach)) p[k] = pressure(at(reach[k]));
+    const std::vector<double> u = deflections(p, 0);
+    double twice = 0, pulled = -state.conjugate;
+    for (const auto k : indices(reach)) {
+        const std::size_t i = at(reach[k]);
+        gap[i] = u[k] - (clearance[i] - state.separation);
+        twice += p[k] * u[k];
+        pulled += share[i] * (z0 - gap[i]);
+    }
+    state.energy = pixel * (0.5 * twice - s0 * pulled);
+    state.gap.clear();
+    for (const std::int32_t k : tracked) state.gap.push_back(gap[at(k)]);
+}
+
+// Finds the state at Z by renewing the attraction from the present one. As a stronger attraction
+// only closes gaps and so becomes stronger still, the states on the way are all on one side of the
+// nearest equilibrium if the separation has changed, and do not pass it. Returns false if it does
+// not converge.
+bool AdhesivePixels::renew(double Z, double aim, Level& level) {
+    if (edges) return balance_edges(Z, aim, level);
+    gather(Z);
+    std::vector<double> next;
+    Iterates iterates;
+    double tolerance = std::max(aim, kEarly * kEarly);
+    for (int round = 0; round < kMost; ++round) {
+        stopping_point();
+        if (!load(Z, tolerance, level)) return false;
         attracted = attraction(next);
         double change = 0, sum = 0;
         for (const std::int32_t i : reach) {
@@ -472,8 +501,8 @@ bool AdhesivePixels::join(double Z) {
 }
 
 // The state at Z next to the present one, without a range.
-bool AdhesivePixels::balance_edges(double Z, Level& level) {
-    const double aim = std::max(kEdgeTolerance * options.tolerance, kFinest);
+bool AdhesivePixels::balance_edges(double Z, double tolerance, Level& level) {
+    const double aim = std::max(kEdgeTolerance * tolerance, kFinest);
     if (sum_of(share) == 0 && !touch(Z, level)) return false;
     for (bool more = false;; more = true) {
         const long before = edge_products->count();
@@ -512,7 +541,7 @@ double AdhesivePixels::stiffness() {
 }
 
 // The level at Z next to the accepted state, or next to the attraction of another one.
-Level AdhesivePixels::step(double Z, const Past* start) {
+Level AdhesivePixels::step(double Z, const Past* start, double tolerance) {
     now = accepted;
     restore(start ? *start : accepted);
     Level level;
@@ -520,7 +549,7 @@ Level AdhesivePixels::step(double Z, const Past* start) {
     level.method = Method::automatic;
     gap.resize(clearance.size());
     for (const auto i : indices(gap)) gap[i] = Z - clearance[i];
-    const bool converged = renew(Z, level);
+    const bool converged = renew(Z, std::max({options.tolerance, tolerance, kFinest}), level);
     level.candidates = std::int32_t(reach.size());
     now.separation = Z;
     now.attracting.clear();
@@ -554,6 +583,8 @@ Level AdhesivePixels::step(double Z, const Past* start) {
     level.cohesive_area = edges ? 0.0 : pixel * cohesive;
     level.cohesive_resolution = resolution();
     now.energy = pixel * (0.5 * twice - s0 * attracted);
+    now.conjugate = -attracted;
+    for (const std::int32_t k : reach) now.conjugate += share[at(k)] * (z0 - gap[at(k)]);
     now.force = level.force;
     now.least_force = std::min(now.least_force, level.force);
     level.least_force = now.least_force;
@@ -564,29 +595,125 @@ Level AdhesivePixels::step(double Z, const Past* start) {
     return level;
 }
 
-// Energy that a step may seem to lose without a jump, or that the place of a jump in it may change.
-double AdhesivePixels::negligible() const {
-    return loss_share(options.physics.of<Adhesion>().range) * options.physics.of<Adhesion>().work *
-               pixel * std::max(sum_of(now.share), sum_of(accepted.share)) +
-           (edges ? kWorkError * std::abs(work_of_step()) : 0.0);
+// Energy below which a step counts as reversible.
+double AdhesivePixels::negligible(const Past& from, const Past& to) const {
+    const auto shares = [](const Past& past) { return sum_of(past.share); };
+    const Adhesion& adhesion = options.physics.of<Adhesion>();
+    return loss_share(adhesion.range) * adhesion.work * pixel * std::max(shares(from), shares(to));
 }
 
-double AdhesivePixels::work_of_step() const {
-    if (!(accepted.separation < kInfinity)) return 0;
-    return 0.5 * (accepted.force + now.force) * (accepted.separation - now.separation);
+// By how much the change of the attraction from that of a state to that of another one at the same
+// separation lowers the energy. It is concave in the attraction: its slopes, the gaps, bound the
+// change where it is small beside the errors of the energies.
+double AdhesivePixels::released(const Past& one, const Past& other) {
+    restore(one);
+    std::array<double, 2> bound{};
+    bound.fill(one.conjugate - other.conjugate);
+    for (const auto k : indices(tracked)) bound[0] -= share[at(tracked[k])] * (z0 - one.gap[k]);
+    for (const auto k : indices(tracked)) bound[1] -= share[at(tracked[k])] * (z0 - other.gap[k]);
+    restore(other);
+    for (const auto k : indices(tracked)) bound[0] += share[at(tracked[k])] * (z0 - one.gap[k]);
+    for (const auto k : indices(tracked)) bound[1] += share[at(tracked[k])] * (z0 - other.gap[k]);
+    const auto [low, high] = std::minmax(bound[0], bound[1]);
+    return std::clamp(one.energy - other.energy, pixel * s0 * low, pixel * s0 * high);
 }
 
-// The work of the step from the accepted state, by the trapezoidal rule, minus the change of the
-// energy.
-double AdhesivePixels::lost_in_step() const {
-    if (!(accepted.separation < kInfinity)) return 0;
-    return work_of_step() - (now.energy - accepted.energy);
+// The work between two separations under an attraction that stays as it is, is the change of the
+// energy under it, which needs no way. On the way the attraction changes in one direction, and the
+// stronger it is, the smaller is the force: the loss is between what the change of the attraction
+// releases at one end and at the other.
+AdhesivePixels::Part AdhesivePixels::between(const Past& from, const Past& to, Level& effort) {
+    const auto under = [&](const Past& attraction, double Z) {
+        Past state = attraction;
+        state.separation = Z;
+        restore(state);
+        for (const auto i : indices(gap)) gap[i] = Z - clearance[i];
+        gather(Z);
+        if (load(Z, kOnTheWay, effort))
+            open(state);
+        else
+            state.energy = kNotComputed;
+        return state;
+    };
+    const double at_from = released(from, under(to, from.separation)),
+                 at_to = released(under(from, to.separation), to);
+    double changed = 0;
+    restore(from);
+    for (const std::int32_t k : tracked) changed += share[at(k)];
+    restore(to);
+    for (const std::int32_t k : tracked) changed -= share[at(k)];
+    const double most = pixel * s0 * z0 * std::abs(changed), apart = std::abs(at_from - at_to);
+    Part part{from, to, 0.5 * (at_from + at_to)};
+    part.doubt = std::min(std::abs(part.lost), 0.5 * apart);
+    part.proved = part.lost > 0.5 * apart + kOnTheWay * most;
+    if (part.lost > kOfJump * most) part.jumps = count_jumps(from, to);
+    return part;
 }
 
-// Divides the step from the accepted state to this level, if it seems to lose energy, until it does
-// not, or is so short that it is a jump. Where Simpson's rule shows that it loses none, the state
-// at its end is the right one. If a part does not converge, `level` is that of the part.
-void AdhesivePixels::divide(Level& level, double shortest) {
+// The way from the accepted state to `now`: its parts, divided where their loss is least known. A
+// loss that both halves do not have together is one of the mean in between().
+std::vector<AdhesivePixels::Part> AdhesivePixels::divide(Level& effort) {
+    const double most = negligible(accepted, now);
+    Past begin = accepted, end = now;
+    tracked.clear();
+    std::ranges::set_union(begin.attracting, end.attracting, std::back_inserter(tracked));
+    open(end);
+    restore(begin);
+    for (const auto i : indices(q)) q[i] = p_before[i] + s0 * share[i];
+    for (const auto i : indices(gap)) gap[i] = begin.separation - clearance[i];
+    open(begin);
+    std::vector<Part> parts = {between(begin, end, effort)};
+    const auto attracts = [](const Part& part) {
+        return !part.from.attracting.empty() || !part.to.attracting.empty();
+    };
+    while (std::ranges::count_if(parts, attracts) < kMostParts) {
+        const auto worst = std::ranges::max_element(parts, {}, &Part::doubt);
+        const Part whole = *worst;
+        if (!(whole.doubt > most)) break;
+        const Level middle =
+            step(0.5 * (whole.from.separation + whole.to.separation), &whole.from, kOnTheWay);
+        effort.iterations += middle.iterations;
+        effort.products += middle.products;
+        if (!middle.converged) break;
+        Past half = now;
+        open(half);
+        Part first = between(whole.from, half, effort), second = between(half, whole.to, effort);
+        for (Part* part : {&first, &second})
+            part->doubt = std::min(part->doubt, std::abs(whole.lost - first.lost - second.lost));
+        *worst = std::move(first);
+        parts.push_back(std::move(second));
+    }
+    tracked.clear();
+    return parts;
+}
+
+// The level at Z after the way to it, whose losses are those of its parts.
+Level AdhesivePixels::follow_range(double Z) {
+    Level way = step(Z);
+    if (!way.converged) return way;
+    const Past end = now;
+    const std::vector<Part> parts = divide(way);
+    Level level = step(Z, &end);
+    level.iterations += way.iterations;
+    level.products += way.products;
+    if (!level.converged) return level;
+    for (const Part& part : parts) {
+        now.least_force = std::min(now.least_force, part.to.force);
+        const bool confirmed = part.lost > std::max(part.doubt, negligible(part.from, part.to));
+        if (!part.proved && !confirmed) continue;
+        now.lost += part.lost;
+        level.jumps += part.jumps;
+    }
+    level.energy_lost = now.lost;
+    level.least_force = now.least_force;
+    return level;
+}
+
+// Without a range: divides the step from the accepted state to this level, if its work by the
+// trapezoidal rule is more than the change of the energy, until it is not, or is so short that it
+// is a jump. Where Simpson's rule shows that it loses none, the state at its end is the right one.
+// If a part does not converge, `level` is that of the part.
+void AdhesivePixels::divide_edges(Level& level, double shortest) {
     const auto parts = [&](auto&& add) {
         const std::int32_t iterations = level.iterations;
         const std::int64_t products = level.products;
@@ -594,67 +721,67 @@ void AdhesivePixels::divide(Level& level, double shortest) {
         level.iterations += iterations;
         level.products += products;
     };
-    const double lost = lost_in_step(), most = negligible(), Z = now.separation,
-                 length = std::abs(Z - accepted.separation);
-    if (!level.converged || std::abs(lost) <= most) return;
-    if (length <= shortest || 0.5 * length * std::abs(now.force - accepted.force) <= most) {
-        now.lost += std::max(lost, 0.0);
+    const double Z = now.separation, down = accepted.separation - Z,
+                 gained = now.energy - accepted.energy,
+                 work = 0.5 * (accepted.force + now.force) * down,
+                 most = negligible(accepted, now) + kWorkError * std::abs(work);
+    if (!level.converged || std::abs(work - gained) <= most) return;
+    if (std::abs(down) <= shortest || 0.5 * std::abs(down * (now.force - accepted.force)) <= most) {
+        now.lost += std::max(work - gained, 0.0);
         level.energy_lost = now.lost;
-        level.jumps += count_jumps();
+        level.jumps += count_jumps(accepted, now);
         return;
     }
     const Past end = now;
     parts([&] { level = step(0.5 * (accepted.separation + Z)); });
     if (!level.converged) return;
-    const double work =
-        (accepted.force + 4 * now.force + end.force) * (accepted.separation - Z) / 6;
-    if (std::abs(work - (end.energy - accepted.energy)) <= most) {
+    const double better = (accepted.force + 4 * now.force + end.force) * down / 6;
+    if (std::abs(better - gained) <= most) {
         parts([&] { level = step(Z, &end); });
         return;
     }
-    divide(level, shortest);
+    divide_edges(level, shortest);
     if (!level.converged) return;
     accepted = now;
     accepted.jumps = level.jumps;
-    keep();
     parts([&] { level = step(Z); });
-    divide(level, shortest);
+    divide_edges(level, shortest);
+}
+
+Level AdhesivePixels::follow_edges(double Z) {
+    Level level = step(Z);
+    const Past before = accepted;
+    try {
+        divide_edges(level, kShortestOfEdges * std::abs(Z - accepted.separation));
+    } catch (...) {
+        accepted = before;
+        throw;
+    }
+    accepted = before;
+    return level.converged ? level : step(Z);  // in one step it converges
 }
 
 // A trial starts from the last trial, so that it may find another equilibrium than the one which
 // the path of the bodies reaches.
 Level AdhesivePixels::solve(double Z, bool trial) {
     const std::optional<Past> last = std::exchange(tried, std::nullopt);
+    tracked.clear();
+    if (!trial && accepted.separation < kInfinity && Z != accepted.separation)
+        return edges ? follow_edges(Z) : follow_range(Z);
     Level level = step(Z, trial && last ? &*last : nullptr);
-    if (trial) {
-        if (level.converged) tried = now;
-        level.provisional = true;
-        return level;
-    }
-    if (!level.converged) return level;
-    const Past before = accepted;
-    const std::vector<double> gaps = gap_before, pressures = p_before;
-    const auto take_back = [&] {
-        accepted = before;
-        gap_before = gaps;
-        p_before = pressures;
-    };
-    try {
-        divide(level, (edges ? kShortestOfEdges : kShortest) * std::abs(Z - accepted.separation));
-    } catch (...) {
-        take_back();
-        throw;
-    }
-    take_back();
-    return level.converged ? level : step(Z);  // in one step it converges
+    level.provisional = trial;
+    if (trial && level.converged) tried = now;
+    return level;
 }
 
-// Number of connected sets of points that began or ceased to attract in the step: 1, or that of the
-// sets of at least kFewest points if this is larger.
-std::int32_t AdhesivePixels::count_jumps() const {
+// Number of connected sets of points that began or ceased to attract between two states: 1, or that
+// of the sets of at least kFewest points if this is larger.
+std::int32_t AdhesivePixels::count_jumps(const Past& from, const Past& to) const {
+    std::vector<std::int32_t> changed;
+    std::ranges::set_symmetric_difference(from.attracting, to.attracting,
+                                          std::back_inserter(changed));
     std::vector<Pixel> where;
-    for (const std::int32_t k : reach)
-        if ((p_before[at(k)] != 0) != (pressure(at(k)) != 0)) where.push_back(pixel_at(k));
+    for (const std::int32_t k : changed) where.push_back(pixel_at(k));
     std::vector<int> set;
     const int sets = connected_sets(where, set, flats ? heights.nx : 0, flats ? heights.ny : 0);
     std::vector<std::size_t> points(at(sets));
@@ -668,10 +795,9 @@ void AdhesivePixels::restore(const Past& past) {
     for (const auto k : indices(past.attracting)) share[at(past.attracting[k])] = past.share[k];
 }
 
-// Stores gaps and pressures of the last level, the accepted one.
+// Stores the pressures of the last level, the accepted one.
 void AdhesivePixels::keep() {
     tried.reset();
-    gap_before = gap;
     p_before.resize(gap.size());
     for (const auto i : indices(gap)) p_before[i] = pressure(i);
 }
@@ -682,7 +808,7 @@ void AdhesivePixels::keep() {
 void AdhesivePixels::move(double x0, double y0) {
     const Indenter from = indenter;
     const Past before = accepted;
-    const std::vector<double> gaps = gap_before, pressures = p_before;
+    const std::vector<double> pressures = p_before;
     const Period& period = from.repeats.finite() ? from.repeats : from.period;
     const Vec2 way{period.nearest_x(x0 - from.x0), period.nearest_y(y0 - from.y0)};
     const double length = std::hypot(way.x, way.y);
@@ -724,7 +850,6 @@ void AdhesivePixels::move(double x0, double y0) {
     } catch (...) {
         indenter = from;
         accepted = before;
-        gap_before = gaps;
         p_before = pressures;
         set_clearances();
         if (before.separation < kInfinity) (void)solve(before.separation, false);
@@ -737,10 +862,7 @@ void AdhesivePixels::move(double x0, double y0) {
 void AdhesivePixels::follow() {
     const std::vector<double> before = clearance;
     set_clearances();
-    if (accepted.attracting.empty() && !(top > accepted.separation - z0 - margin - bulged)) {
-        for (const auto i : indices(gap_before)) gap_before[i] = accepted.separation - clearance[i];
-        return;
-    }
+    if (accepted.attracting.empty() && !(top > accepted.separation - z0 - margin - bulged)) return;
     for (const auto i : indices(before))
         if (std::isfinite(before[i]) != std::isfinite(clearance[i]) &&
             std::max(before[i], clearance[i]) > accepted.separation - z0 - margin - bulged)
@@ -757,9 +879,9 @@ void AdhesivePixels::follow() {
         if (const double p = p_before[i] + pressure(i); p != 0)
             twice += p * (clearance[i] - before[i]);
     if (const double lost = 0.5 * pixel * twice - (now.energy - accepted.energy);
-        lost > negligible()) {
+        lost > negligible(accepted, now)) {
         now.lost += lost;
-        level.jumps += count_jumps();
+        level.jumps += count_jumps(accepted, now);
     }
     now.jumps = level.jumps;
     accepted = now;

@@ -219,6 +219,51 @@ TEST(test_no_force) {
     }
 }
 
+// A level next to another one takes a number of products that is bounded by that of a first one, and
+// towards the surface has its state: attraction closes gaps, and closed gaps attract more, so that
+// the state next to that of bodies apart is one, whatever the levels on the way. The loss of a
+// cycle in few levels is the work of one in many.
+TEST(test_later_levels) {
+    const double h = 0.1 / 32, range = 9e-4;
+    const HeightMap map = height_map(32, 32, h, h, [=](int i, int j) {
+        return 1e-3 * (std::sin(250 * i * h) * std::cos(190 * j * h) +
+                       std::sin(170 * i * h + 210 * j * h + 2));
+    });
+    const auto make = [&] {
+        return make_element_contact(map, Indenter{1.0, 1.0, 0.05, 0.05}, attracting(2e-4, range));
+    };
+    const auto few = make();
+    const double touch = few->first_touch();
+    std::int64_t first = 0;
+    Level level;
+    for (const double depth : {-2.5, -0.5, 0.25, 1.0, 2.5}) {
+        const double Z = touch - depth * range;
+        level = few->at_separation(Z);
+        const Level alone = make()->at_separation(Z);
+        first = std::max(first, alone.products);
+        CHECK(level.products <= 8 * first);
+        CHECK_RELATIVE(level.force, alone.force, 1e-5);
+    }
+    for (const double depth : {0.0, -3.0, -8.0}) {
+        level = few->at_separation(touch - depth * range);
+        CHECK(level.products <= 8 * first);
+    }
+    CHECK(level.force == 0 && level.energy_lost > 0);
+    const auto many = make();
+    double work = 0;
+    constexpr int steps = 150;
+    Level last = many->at_separation(touch + 2.5 * range);
+    for (int k = 1; k <= 2 * steps; ++k) {
+        const double along = k <= steps ? k : steps - (k - steps) * 2.1;
+        const Level next = many->at_separation(touch + (2.5 - 5 * along / steps) * range);
+        work += 0.5 * (next.force + last.force) * (last.separation - next.separation);
+        last = next;
+    }
+    CHECK(last.force == 0);
+    CHECK_RELATIVE(last.energy_lost, work, 0.05);
+    CHECK_RELATIVE(level.energy_lost, work, 0.1);
+}
+
 // A small map of body 2 in the middle of a flat one: its attraction ends at its border, which is
 // told; that of a raised middle does not.
 TEST(test_cut_body) {
