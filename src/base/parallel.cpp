@@ -31,8 +31,8 @@ int processors() {
 int default_threads() {
     static const int count = [] {
         const char* const text = std::getenv("OMP_NUM_THREADS");
-        const long wanted = text ? std::strtol(text, nullptr, 10) : 0;  // the first of a list
-        return wanted > 0 ? int(std::min(wanted, 1000000L)) : processors();
+        const long requested = text ? std::strtol(text, nullptr, 10) : 0;  // the first of a list
+        return requested > 0 ? int(std::min(requested, 1000000L)) : processors();
     }();
     return count;
 }
@@ -46,7 +46,7 @@ struct Tree {
 struct Job {
     std::size_t count;
     const std::function<void(std::size_t, std::size_t)>& body;
-    std::size_t wanted;  // number of helpers that may still join this loop
+    std::size_t requested;  // number of helpers that may still join this loop
     Tree& tree;
     std::size_t joined = 0;
     std::atomic<std::size_t> inside{0}, next{0};
@@ -97,7 +97,7 @@ struct Pool {
         for (;;) {
             // Outer loops come before those inside their pieces.
             const auto found = std::ranges::find_if(jobs, [](const Job* job) {
-                return job->wanted > 0 && job->tree.helpers > 0 && job->next < job->count;
+                return job->requested > 0 && job->tree.helpers > 0 && job->next < job->count;
             });
             if (found == jobs.end()) {
                 const std::size_t last = posted;
@@ -110,7 +110,7 @@ struct Pool {
                 continue;
             }
             Job& job = **found;
-            --job.wanted;
+            --job.requested;
             --job.tree.helpers;
             ++job.inside;
             const std::size_t worker = ++job.joined;
@@ -125,8 +125,8 @@ struct Pool {
 
     // Starts helpers. std::thread is not used, because it throws if no thread can be started and
     // frees memory in the new thread.
-    void start(std::size_t wanted) {
-        while (threads < wanted) {
+    void start(std::size_t requested) {
+        while (threads < requested) {
             pthread_t thread;
             const auto helper = [](void*) -> void* {
                 get().help();
@@ -146,8 +146,8 @@ double machine_memory() {
     return pages > 0 && page > 0 ? pages * page : kInfinity;
 }
 
-std::size_t most_threads(int wanted) {
-    const int n = wanted > 0 ? wanted : loop_threads > 0 ? loop_threads : default_threads();
+std::size_t most_threads(int requested) {
+    const int n = requested > 0 ? requested : loop_threads > 0 ? loop_threads : default_threads();
     // Far more threads than processors only wait for each other: with a thousand threads on two
     // processors, seconds of work take minutes.
     return at(std::clamp(n, 1, 16 + 2 * processors()));

@@ -12,9 +12,9 @@ namespace rsc {
 // Memory of the machine [bytes]; Infinity: not known.
 double machine_memory();
 
-// Number of threads for loops and campaigns: `wanted`, or if 0 that of LoopThreads, of
+// Number of threads for loops and campaigns: `requested`, or if 0 that of LoopThreads, of
 // OMP_NUM_THREADS, or the number of processors. At most 16 + 2 times the number of processors.
-std::size_t most_threads(int wanted);
+std::size_t most_threads(int requested);
 
 // During its lifetime, loops of this thread with threads = 0 use this number of threads.
 class LoopThreads {

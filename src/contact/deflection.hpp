@@ -1,4 +1,4 @@
-// Deflection of the surface by contact forces, beside and under the spots.
+// Deflection of the surface by contact forces, next to and under the spots.
 #pragma once
 
 #include "contact/level.hpp"

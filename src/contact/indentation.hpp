@@ -96,7 +96,7 @@ private:
     std::map<std::type_index, std::any> all_;
 };
 
-// What is known of the rough surface beside its asperities or heights. 0: unknown.
+// What is known of the rough surface besides its asperities or heights. 0: unknown.
 struct SurfaceFacts {
     double sigma = 0;            // rms height [length], the unit of delta0 and of selection='paper'
     double mean_spacing = 0;     // <d> = 1/sqrt(D) of the summits [length]

@@ -86,7 +86,7 @@ public:
     // Earlier solutions are no longer starting points, and there is no history.
     virtual void forget() = 0;
 
-    // Everything beside the bodies, the place of the tip and the history that later results depend
+    // Everything besides the bodies, the place of the tip and the history that later results depend
     // on, to the last bit: the last solution, to which stiffness() and energy() refer, and the
     // starting points. recall() of an identically made model, at this place and history, then
     // continues as this one does. Throws as the reader.

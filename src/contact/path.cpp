@@ -7,7 +7,7 @@ namespace rsc {
 namespace {
 
 // accepted relative error of the force due to rounding of the separation
-constexpr double kUnresolved = 1e-6;
+constexpr double kForceByRounding = 1e-6;
 constexpr double kFarAbove = 100;   // relative to the requested force
 constexpr double kReleased = 1e-3;  // resolution of pulling off, relative to the range
 // Steps of the approach to a force: the most by which one is longer than the last.
@@ -395,11 +395,12 @@ void Path::require_resolved(Level& level, double N) {
     if (std::abs(level.force - N) > resolved) {  // no separation has the force N
         level.converged = false;
         level.fallback = Fallback::jump;
-    } else if (std::abs(level.force / N - 1) > kUnresolved) {  // N is proportional to depth^(3/2)
+    } else if (std::abs(level.force / N - 1) >
+               kForceByRounding) {  // N is proportional to depth^(3/2)
         bad_input(
             format("a force of %.9g is too small for the resolution of the separation: "
                    "near %.9g the smallest possible force is %.9g",
-                   N, z, model_->force_at_most(1.5 * ulp / kUnresolved)));
+                   N, z, model_->force_at_most(1.5 * ulp / kForceByRounding)));
     }
 }
 

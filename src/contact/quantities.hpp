@@ -64,7 +64,7 @@ struct LevelQuantity {
     // Whether the screen has its column, if it has a heading; null: if `always`.
     bool (*shown)(const Case&) = nullptr;
     // A count: written with this quantity, even if it is 0 at all levels.
-    double LevelValues::*beside = nullptr;
+    double LevelValues::*written_with = nullptr;
     // The variable of files that has its smallest value over the levels of a realization, missing
     // if a level has no state; null: none.
     const char *least = nullptr, *least_meaning = "", *least_comment = "";

@@ -52,7 +52,7 @@ struct ShapeKeys {
     double m2 = 0;  // map: Moments::m2 of its differences, without those across its border
     std::vector<std::uint8_t>
         filled;  // map: 1 at j*nx + i where a point was missing; empty if none was
-    std::vector<std::string> told;  // map: report of its processing for the screen
+    std::vector<std::string> report;  // map: report of its processing for the screen
 };
 
 class IndenterShape {

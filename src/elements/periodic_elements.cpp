@@ -29,33 +29,34 @@ constexpr double kRounding = 1e-12;  // rounding error of separations, in rms he
 // Mean of a function of the heights.
 template <class F>
 double PeriodicElements::mean_of(F&& f) const {
-    const double means = sum_in_order(relief_.ny, kRows, threads(), [&](int j) {
+    const double means = sum_in_order(heights_.ny, kRows, threads(), [&](int j) {
         double row = 0;
-        for (int i = 0; i < relief_.nx; ++i) row += f(relief_.z[j * relief_.stride + i]);
-        return row / relief_.nx;
+        for (int i = 0; i < heights_.nx; ++i) row += f(heights_.z[j * heights_.stride + i]);
+        return row / heights_.nx;
     });
-    return means / relief_.ny;
+    return means / heights_.ny;
 }
 
 double PeriodicElements::mean_height() const {
     return mean_of([](double z) { return z; });
 }
 
-PeriodicElements::PeriodicElements(const Relief& relief, const Substrate& substrate, double highest)
+PeriodicElements::PeriodicElements(const PeriodicHeights& heights, const Substrate& substrate,
+                                   double highest)
     : BoundedSolver(highest, {kSteps, kReduction, kQuick, true}),
-      relief_(relief),
+      heights_(heights),
       substrate_(substrate),
-      largest_(highest),
-      aspect_(relief.ny > 1 ? relief.dy / relief.dx : kEndless),
-      inner_(relief.nx, relief.ny, 1, aspect_, share_of_modes(substrate_, relief_.dx),
+      highest_pressure_(highest),
+      aspect_(heights.ny > 1 ? heights.dy / heights.dx : kEndless),
+      inner_(heights.nx, heights.ny, 1, aspect_, share_of_modes(substrate_, heights_.dx),
              &transformed_),
-      plane_(relief.nx, relief.ny) {
+      plane_(heights.nx, heights.ny) {
     mean_ = zero_ = mean_height();
-    std::vector<double> farthest(at(relief_.ny), 0.0);
-    parallel_for(relief_.ny, kRows, threads(), [&](int j) {
-        for (int i = 0; i < relief_.nx; ++i)
+    std::vector<double> farthest(at(heights_.ny), 0.0);
+    parallel_for(heights_.ny, kRows, threads(), [&](int j) {
+        for (int i = 0; i < heights_.nx; ++i)
             farthest[at(j)] =
-                std::max(farthest[at(j)], std::abs(relief_.z[j * relief_.stride + i] - mean_));
+                std::max(farthest[at(j)], std::abs(heights_.z[j * heights_.stride + i] - mean_));
     });
     const double largest = std::ranges::max(farthest);
     if (!(largest > 0))
@@ -64,7 +65,7 @@ PeriodicElements::PeriodicElements(const Relief& relief, const Substrate& substr
                return (z - mean_) / largest * ((z - mean_) / largest);
            }));
     scale_ = 1 / rms_;
-    pressure_unit_ = substrate.modulus() * (rms_ / relief.dx);
+    pressure_unit_ = substrate.modulus() * (rms_ / heights.dx);
     highest_ = highest / pressure_unit_;
     prepare();
 }
@@ -72,33 +73,33 @@ PeriodicElements::PeriodicElements(const Relief& relief, const Substrate& substr
 PeriodicElements::PeriodicElements(const PeriodicElements& finer,
                                    const std::vector<double>& heights)
     : BoundedSolver(finer.highest_, {kSteps, kReduction, kQuick, true}),
-      relief_{finer.relief_.nx / 2, (finer.relief_.ny + 1) / 2,
-              2 * finer.relief_.dx, 2 * finer.relief_.dy,
-              heights.data(),       finer.relief_.nx / 2},
+      heights_{finer.heights_.nx / 2, (finer.heights_.ny + 1) / 2,
+               2 * finer.heights_.dx, 2 * finer.heights_.dy,
+               heights.data(),        finer.heights_.nx / 2},
       substrate_(finer.substrate_),
-      largest_(finer.largest_),
+      highest_pressure_(finer.highest_pressure_),
       unit_(2 * finer.unit_),
       aspect_(finer.aspect_),
-      inner_(relief_.nx, relief_.ny, 1, aspect_, share_of_modes(substrate_, relief_.dx),
+      inner_(heights_.nx, heights_.ny, 1, aspect_, share_of_modes(substrate_, heights_.dx),
              &transformed_),
-      plane_(relief_.nx, relief_.ny) {
+      plane_(heights_.nx, heights_.ny) {
     diagonal_ = finer.diagonal_;
     prepare();
 }
 
 void PeriodicElements::prepare() {
-    const Share share = share_of_modes(substrate_, relief_.dx);
-    rows_.assign(at(relief_.ny) + 1, 0);
+    const Share share = share_of_modes(substrate_, heights_.dx);
+    rows_.assign(at(heights_.ny) + 1, 0);
     prepare_inverse();
-    if (SplitPixels::suits(relief_.nx, relief_.ny, aspect_, share))
-        split_ = std::make_unique<SplitPixels>(relief_.nx, relief_.ny, aspect_, share);
+    if (SplitPixels::suits(heights_.nx, heights_.ny, aspect_, share))
+        split_ = std::make_unique<SplitPixels>(heights_.nx, heights_.ny, aspect_, share);
 }
 
 void PeriodicElements::prepare_inverse() {
     inverse_of_ = diagonal_;
-    const Share share = with_diagonal(share_of_modes(substrate_, relief_.dx), diagonal_ / unit_);
+    const Share share = with_diagonal(share_of_modes(substrate_, heights_.dx), diagonal_ / unit_);
     inverse_ = inverse_stencil(aspect_, share);
-    far_ = std::make_unique<BlockCorrection>(relief_.nx, relief_.ny, aspect_, inverse_, share);
+    far_ = std::make_unique<BlockCorrection>(heights_.nx, heights_.ny, aspect_, inverse_, share);
 }
 
 void PeriodicElements::set_diagonal(double diagonal) {
@@ -106,21 +107,21 @@ void PeriodicElements::set_diagonal(double diagonal) {
     closing_.reset();
 }
 
-int PeriodicElements::threads() const { return relief_.nx >= kThreads / relief_.ny ? 0 : 1; }
+int PeriodicElements::threads() const { return heights_.nx >= kThreads / heights_.ny ? 0 : 1; }
 
 PeriodicPixels<double>& PeriodicElements::fine() {
     if (!fine_)
-        fine_ = std::make_unique<PeriodicPixels<double>>(relief_.nx, relief_.ny, 1, aspect_,
-                                                         share_of_modes(substrate_, relief_.dx),
+        fine_ = std::make_unique<PeriodicPixels<double>>(heights_.nx, heights_.ny, 1, aspect_,
+                                                         share_of_modes(substrate_, heights_.dx),
                                                          &transformed_);
     return *fine_;
 }
 
 std::vector<double> PeriodicElements::coarse_heights() const {
-    const int nx = relief_.nx / 2, ny = (relief_.ny + 1) / 2;
+    const int nx = heights_.nx / 2, ny = (heights_.ny + 1) / 2;
     std::vector<double> heights = zeros_on_huge_pages<double>(at(nx) * at(ny));
     parallel_for(ny, kRows, threads(), [&](int j) {
-        const int low = 2 * j, high = std::min(low + 1, relief_.ny - 1);
+        const int low = 2 * j, high = std::min(low + 1, heights_.ny - 1);
         for (int i = 0; i < nx; ++i)
             heights[at(j) * at(nx) + at(i)] =
                 0.25 * (height(low, 2 * i) + height(low, 2 * i + 1) + height(high, 2 * i) +
@@ -131,12 +132,12 @@ std::vector<double> PeriodicElements::coarse_heights() const {
 
 void PeriodicElements::start(const PeriodicElements& coarse) {
     const auto pressed = coarse.pressed_by_row();
-    for (int j = 0; j < relief_.ny; ++j)
+    for (int j = 0; j < heights_.ny; ++j)
         rows_[at(j) + 1] = rows_[at(j)] + 2 * (pressed[at(j / 2) + 1] - pressed[at(j / 2)]);
     column_.resize(rows_.back());
     p_.resize(rows_.back());
     z_.resize(rows_.back());
-    parallel_for(relief_.ny, kRows, threads(), [&](int j) {
+    parallel_for(heights_.ny, kRows, threads(), [&](int j) {
         std::size_t next = rows_[at(j)];
         for (std::size_t k = coarse.rows_[at(j / 2)]; k < coarse.rows_[at(j / 2) + 1]; ++k) {
             if (!(coarse.p_[k] > 0)) continue;
@@ -151,8 +152,8 @@ void PeriodicElements::start(const PeriodicElements& coarse) {
 
 // The numbers of pixels under pressure in the rows before each.
 std::vector<std::size_t> PeriodicElements::pressed_by_row() const {
-    std::vector<std::size_t> before(at(relief_.ny) + 1, 0);
-    parallel_for(relief_.ny, kRows, threads(), [&](int j) {
+    std::vector<std::size_t> before(at(heights_.ny) + 1, 0);
+    parallel_for(heights_.ny, kRows, threads(), [&](int j) {
         for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k)
             before[at(j) + 1] += p_[k] > 0 ? 1 : 0;
     });
@@ -164,9 +165,9 @@ void PeriodicElements::start(Given given) {
     column_.clear();
     p_.clear();
     z_.clear();
-    for (int j = 0; j < relief_.ny; ++j) {
+    for (int j = 0; j < heights_.ny; ++j) {
         rows_[at(j)] = p_.size();
-        for (int i = 0; i < relief_.nx; ++i) {
+        for (int i = 0; i < heights_.nx; ++i) {
             const double overlap = given.is_pressure ? 1 : height(j, i) - given.value;
             if (!(overlap > 0)) continue;
             column_.push_back(i);
@@ -195,7 +196,7 @@ bool PeriodicElements::bare() const {
 
 std::vector<Pixel> PeriodicElements::set() const {
     std::vector<Pixel> pixels;
-    for (int j = 0; j < relief_.ny; ++j)
+    for (int j = 0; j < heights_.ny; ++j)
         for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k)
             pixels.push_back({column_[k], j});
     return pixels;
@@ -207,7 +208,7 @@ void PeriodicElements::multiply_by(PeriodicPixels<Real>& pixels, const Array<T>&
     Kx.resize(x.size());
     pixels.apply(
         [&](int j, Real* row) {
-            std::fill_n(row, relief_.nx, Real(0));
+            std::fill_n(row, heights_.nx, Real(0));
             for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k)
                 row[column_[k]] = static_cast<Real>(x[k]);
         },
@@ -227,8 +228,8 @@ void PeriodicElements::multiply(const Array<double>& x, Array<double>& Kx, bool 
 
 // Also collects the penetrating pixels for renew().
 double PeriodicElements::outside() {
-    outside_.resize(at(relief_.ny));
-    return sum_in_order(relief_.ny, kRows, threads(), [&](int j) {
+    outside_.resize(at(heights_.ny));
+    return sum_in_order(heights_.ny, kRows, threads(), [&](int j) {
         const float* const inner = exact_ ? nullptr : inner_.row(j);
         const double* const exact = exact_ ? fine_->row(j) : nullptr;
         std::vector<Penetration>& found = outside_[at(j)];
@@ -236,7 +237,7 @@ double PeriodicElements::outside() {
         double part = 0;
         int i = 0;
         for (std::size_t k = rows_[at(j)]; k <= rows_[at(j) + 1]; ++k, ++i) {
-            const int upto = k < rows_[at(j) + 1] ? column_[k] : relief_.nx;
+            const int upto = k < rows_[at(j) + 1] ? column_[k] : heights_.nx;
             for (; i < upto; ++i) {
                 const double w =
                     unit_ * (exact ? exact[i] : static_cast<double>(inner[i])) - height(j, i) + Z0_;
@@ -255,12 +256,12 @@ double PeriodicElements::outside() {
 // every change of the set disturbs the waves that take most products, the more of them the wider
 // their range. The products hardly depend on the side of the blocks (4 to 32 pixels).
 void PeriodicElements::clip() {
-    const int blocks = (relief_.nx + kBlock - 1) / kBlock;
-    parallel_for((relief_.ny + kBlock - 1) / kBlock, 1, threads(), [&](int J) {
+    const int blocks = (heights_.nx + kBlock - 1) / kBlock;
+    parallel_for((heights_.ny + kBlock - 1) / kBlock, 1, threads(), [&](int J) {
         // Of each block: what was added, and the pressures between the bounds.
         std::vector<double> added(at(blocks), 0.0), room(at(blocks), 0.0);
         const std::size_t first = rows_[at(J * kBlock)],
-                          end = rows_[at(std::min((J + 1) * kBlock, relief_.ny))];
+                          end = rows_[at(std::min((J + 1) * kBlock, heights_.ny))];
         for (std::size_t k = first; k < end; ++k) {
             const std::size_t b = at(column_[k] / kBlock);
             const double inside = std::clamp(p_[k], 0.0, highest_);
@@ -279,15 +280,15 @@ void PeriodicElements::clip() {
 // set were collected by outside().
 void PeriodicElements::renew() {
     const auto belongs = [&](std::size_t k) { return w_[k] < 0 || p_[k] > 0; };
-    std::vector<std::size_t> rows(at(relief_.ny) + 1, 0);
-    parallel_for(relief_.ny, kRows, threads(), [&](int j) {
+    std::vector<std::size_t> rows(at(heights_.ny) + 1, 0);
+    parallel_for(heights_.ny, kRows, threads(), [&](int j) {
         rows[at(j) + 1] = outside_[at(j)].size();
         for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k) rows[at(j) + 1] += belongs(k);
     });
-    for (int j = 0; j < relief_.ny; ++j) rows[at(j) + 1] += rows[at(j)];
+    for (int j = 0; j < heights_.ny; ++j) rows[at(j) + 1] += rows[at(j)];
     next_column_.resize(rows.back());
     for (auto* v : {&before_p_, &before_w_}) v->resize(rows.back());
-    parallel_for(relief_.ny, kRows, threads(), [&](int j) {
+    parallel_for(heights_.ny, kRows, threads(), [&](int j) {
         std::size_t next = rows[at(j)];
         const auto add = [&](std::int32_t i, double p, double w) {
             next_column_[next] = i;
@@ -308,14 +309,14 @@ void PeriodicElements::renew() {
     p_.swap(before_p_);
     w_.swap(before_w_);
     z_.resize(p_.size());
-    parallel_for(relief_.ny, kRows, threads(), [&](int j) {
+    parallel_for(heights_.ny, kRows, threads(), [&](int j) {
         for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k) z_[k] = height(j, column_[k]);
     });
 }
 
 // Products inside a round need not be accurate, because the next round starts from an accurate one.
 void PeriodicElements::multiply_roughly(const Array<float>& x, Array<float>& Kx) {
-    if (!split_ || x.size() > at(relief_.nx) * at(relief_.ny) / kFew)
+    if (!split_ || x.size() > at(heights_.nx) * at(heights_.ny) / kFew)
         return multiply_by(inner_, x, Kx);
     split_->multiply(plane_, {rows_, column_}, x, Kx, threads());
     each([&](std::size_t k) { Kx[k] *= static_cast<float>(unit_); });
@@ -363,9 +364,9 @@ ElementsOutcome PeriodicElements::solve(Given given, double tolerance, int most_
                                         bool finest) {
     bool started = false;
     const bool closed = finest && given.is_pressure && given.value >= closing_pressure();
-    const bool row = relief_.ny == 1;
-    if (!closed && relief_.nx % 2 == 0 && (row || relief_.ny % 2 == 0) &&
-        std::min(relief_.nx, row ? relief_.nx : relief_.ny) >= 2 * kShortest) {
+    const bool row = heights_.ny == 1;
+    if (!closed && heights_.nx % 2 == 0 && (row || heights_.ny % 2 == 0) &&
+        std::min(heights_.nx, row ? heights_.nx : heights_.ny) >= 2 * kShortest) {
         // The memory of the coarser grid is free again before this one is solved.
         const std::vector<double> heights = coarse_heights();
         const auto coarse = std::unique_ptr<PeriodicElements>(new PeriodicElements(*this, heights));
@@ -387,12 +388,12 @@ ElementsOutcome PeriodicElements::solve(Given given, double tolerance, int most_
     const auto pressed = pressed_by_row();
     pixels_.resize(pressed.back());
     pressures_.resize(pressed.back());
-    parallel_for(relief_.ny, kRows, threads(), [&](int j) {
+    parallel_for(heights_.ny, kRows, threads(), [&](int j) {
         std::size_t next = pressed[at(j)];
         for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k) {
             if (!(p_[k] > 0)) continue;
             pixels_[next] = {column_[k], j};
-            pressures_[next++] = p_[k] >= highest_ ? largest_ : p_[k] * pressure_unit_;
+            pressures_[next++] = p_[k] >= highest_ ? highest_pressure_ : p_[k] * pressure_unit_;
         }
     });
     return outcome;
@@ -402,7 +403,7 @@ template <class F>
 void PeriodicElements::flattening(F&& take) {
     fine().apply(
         [&](int j, double* row) {
-            for (int i = 0; i < relief_.nx; ++i) row[i] = height(j, i);
+            for (int i = 0; i < heights_.nx; ++i) row[i] = height(j, i);
         },
         [&](int j, const double* row) { take(j, row); }, PeriodicPixels<double>::Answer::pressure);
 }
@@ -410,9 +411,10 @@ void PeriodicElements::flattening(F&& take) {
 double PeriodicElements::closing_pressure() {
     if (closing_) return *closing_;
     if (diagonal_ > 0 || highest_ < kInfinity) return kInfinity;
-    std::vector<double> least(at(relief_.ny));
-    flattening(
-        [&](int j, const double* row) { least[at(j)] = *std::min_element(row, row + relief_.nx); });
+    std::vector<double> least(at(heights_.ny));
+    flattening([&](int j, const double* row) {
+        least[at(j)] = *std::min_element(row, row + heights_.nx);
+    });
     closing_ = 0 - *std::min_element(least.begin(), least.end()) / unit_;
     return *closing_;
 }
@@ -420,7 +422,7 @@ double PeriodicElements::closing_pressure() {
 // In full contact the pressures are the mean one and those that flatten the surface.
 ElementsOutcome PeriodicElements::flatten(double tolerance) {
     flattening([&](int j, const double* row) {
-        for (int i = 0; i < relief_.nx; ++i)
+        for (int i = 0; i < heights_.nx; ++i)
             p_[rows_[at(j)] + at(i)] = std::max(p_[rows_[at(j)] + at(i)] + row[i] / unit_, 0.0);
     });
     ElementsOutcome outcome;
@@ -458,8 +460,8 @@ double PeriodicElements::closed() const {
 
 std::vector<double> PeriodicElements::deflections(const std::vector<Pixel>& pixels,
                                                   const std::vector<double>& p) {
-    const std::size_t nx = at(relief_.nx);
-    std::vector<double> plane(nx * at(relief_.ny), 0.0);
+    const std::size_t nx = at(heights_.nx);
+    std::vector<double> plane(nx * at(heights_.ny), 0.0);
     for (std::size_t k = 0; k < p.size(); ++k)
         plane[at(pixels[k].y) * nx + at(pixels[k].x)] = p[k] / pressure_unit_;
     fine().apply([&](int j, double* row) { std::copy_n(plane.data() + at(j) * nx, nx, row); },
@@ -488,8 +490,8 @@ void PeriodicElements::recall(ArchiveReader& from) {
     BoundedSolver<float>& solved = *this;
     archive(from, solved);
     from(column_);
-    const auto inside = [&](std::int32_t i) { return i >= 0 && i < relief_.nx; };
-    if (!fits(column_.size()) || rows_.size() != at(relief_.ny) + 1 ||
+    const auto inside = [&](std::int32_t i) { return i >= 0 && i < heights_.nx; };
+    if (!fits(column_.size()) || rows_.size() != at(heights_.ny) + 1 ||
         !std::ranges::all_of(column_, inside))
         bad_input("the state does not belong to a contact of this surface");
 }

@@ -11,7 +11,7 @@
 namespace rsc {
 
 // Heights on the pixels of a period, row by row; they must outlive their users.
-struct Relief {
+struct PeriodicHeights {
     int nx = 0, ny = 0;
     double dx = 0, dy = 0;  // sides of a pixel [length]
     const double* z = nullptr;
@@ -28,7 +28,7 @@ class PeriodicElements : private BoundedSolver<float> {
 public:
     // Pressures are limited to `highest` (the hardness; Infinity: no limit); where p = highest, w
     // may be negative. Throws Error(bad_input) if all heights are equal, Error(no_memory).
-    PeriodicElements(const Relief& relief, const Substrate& substrate, double highest);
+    PeriodicElements(const PeriodicHeights& heights, const Substrate& substrate, double highest);
 
     // Solves for a given mean pressure > 0, or a separation Z0 (from z = 0 to the flat; the mean of
     // K p is 0). approach() throws Error(bad_input) at full contact, where Z0 does not determine
@@ -40,7 +40,7 @@ public:
     // pressures then grow without any change of the separation.
     bool full() const {
         return !(diagonal_ > 0 || highest_ < kInfinity) &&
-               p_.size() == at(relief_.nx) * at(relief_.ny) &&
+               p_.size() == at(heights_.nx) * at(heights_.ny) &&
                std::ranges::all_of(p_, [](double p) { return p > 0; });
     }
 
@@ -97,9 +97,9 @@ private:
     template <class F>
     double mean_of(F&& f) const;
     double mean_height() const;
-    double points() const { return static_cast<double>(relief_.nx) * relief_.ny; }
+    double points() const { return static_cast<double>(heights_.nx) * heights_.ny; }
     double height(int j, int i) const {
-        return (relief_.z[j * relief_.stride + i] - zero_) * scale_;
+        return (heights_.z[j * heights_.stride + i] - zero_) * scale_;
     }
     int threads() const;  // for loops over rows
     PeriodicPixels<double>& fine();
@@ -133,9 +133,9 @@ private:
     void freed() override;
     bool judge_exactly(bool exact, double residual, int rounds) override;
 
-    Relief relief_;
+    PeriodicHeights heights_;
     Substrate substrate_;
-    double largest_;
+    double highest_pressure_;
     // Units in which values are of order 1: heights are relative to `zero_` in units of `rms_`
     // (both of the initial heights), pressures in units of E* rms/dx with the dx of the finest
     // grid. K is `unit_` times that of PeriodicPixels with dx = 1.

@@ -25,13 +25,13 @@ public:
     virtual void set_pixels(const std::vector<Pixel>& pixels) = 0;
 
     enum class Accuracy { inner, between, full };  // for iterations, and for the final residual
-    // w = K p [length] at every pixel of the set. If `wanted` is given, at the pixels k with
-    // wanted[k] != 0, and at others that or 0.
+    // w = K p [length] at every pixel of the set. If `requested` is given, at the pixels k with
+    // requested[k] != 0, and at others that or 0.
     virtual void apply(const double* p, double* w, Accuracy accuracy,
-                       const char* wanted = nullptr) = 0;
+                       const char* requested = nullptr) = 0;
     // w = K p on another set, in inner accuracy; cheaper if it is that of the last call.
     virtual void elsewhere(const double* p, const std::vector<Pixel>& pixels, double* w,
-                           const char* wanted = nullptr) = 0;
+                           const char* requested = nullptr) = 0;
 
     // Approximate inverse of K with `diagonal` added on its diagonal, between near pixels, to a
     // constant factor.

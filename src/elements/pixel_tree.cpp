@@ -278,20 +278,20 @@ public:
         lay_out(layout_, pixels, rows_);
     }
 
-    void apply(const double* p, double* w, Accuracy accuracy, const char* wanted) override {
+    void apply(const double* p, double* w, Accuracy accuracy, const char* requested) override {
         ++count_;
-        product(layout_, of(accuracy), size_, p, w, wanted);
+        product(layout_, of(accuracy), size_, p, w, requested);
     }
 
     void elsewhere(const double* p, const std::vector<Pixel>& pixels, double* w,
-                   const char* wanted) override {
+                   const char* requested) override {
         ++count_;
         if (pixels != others_) {
             others_.clear();  // they do not belong to the layout if an exception ends this
             lay_out(others_layout_, pixels, rows_);
             others_ = pixels;
         }
-        product(others_layout_, inner_, pixels.size(), p, w, wanted);
+        product(others_layout_, inner_, pixels.size(), p, w, requested);
     }
 
     PixelStencil inverse(double diagonal) const override {
@@ -317,7 +317,7 @@ private:
         return const_cast<Interpolation&>(std::as_const(*this).of(accuracy));
     }
     void product(const Layout& layout, Interpolation& interpolation, std::size_t n, const double* p,
-                 double* w, const char* wanted);
+                 double* w, const char* requested);
 
     PixelAnswer answer_;
     double shift_;
@@ -333,8 +333,8 @@ private:
     std::vector<std::size_t> source_end_;
     std::vector<TileSource> sources_;
     std::vector<std::vector<double>> up_, down_;
-    // Boxes with pressures, and with pixels whose deflections are wanted.
-    enum : char { kLoaded = 1, kWanted = 2 };
+    // Boxes with pressures, and with pixels whose deflections are requested.
+    enum : char { kLoaded = 1, kRequested = 2 };
     std::vector<std::vector<char>> marks_;
 
     class Passes;
@@ -345,7 +345,7 @@ private:
 class Tree::Passes {
 public:
     Passes(Tree& tree, const Layout& layout, Interpolation& interpolation, std::size_t n,
-           const double* p, double* w, const char* wanted)
+           const double* p, double* w, const char* requested)
         : tree_(tree),
           layout_(layout),
           generations_(layout.generations),
@@ -357,7 +357,7 @@ public:
           kernels_(pixel_kernels()),
           p_(p),
           w_(w),
-          wanted_(wanted) {
+          requested_(requested) {
         const std::size_t levels = generations_.size();
         tree.up_.resize(std::max(tree.up_.size(), levels));
         tree.down_.resize(std::max(tree.down_.size(), levels));
@@ -376,15 +376,15 @@ public:
     void up_from_pixels(std::size_t t) const {
         const std::size_t begin = layout_.begin[t];
         std::size_t end = begin;
-        char mark = wanted_ ? 0 : kWanted;
+        char mark = requested_ ? 0 : kRequested;
         for (std::size_t i = leaf_.inside[t]; i < leaf_.inside[t + 1]; ++i) {
             const auto [first, count, column, row] = layout_.strips[i];
             for (int c = 0; c < count; ++c) {
                 const double value = p_[first + at(c)];
                 tree_.sources_[end] = {static_cast<std::int16_t>(column + c), row, value};
                 end += value != 0 ? 1 : 0;
-                if (wanted_)
-                    mark = static_cast<char>(mark | (wanted_[first + at(c)] ? kWanted : 0));
+                if (requested_)
+                    mark = static_cast<char>(mark | (requested_[first + at(c)] ? kRequested : 0));
             }
         }
         tree_.source_end_[t] = end;
@@ -421,7 +421,7 @@ public:
                 const auto [source, target] = pairs.from_to[k];
                 from[count] = tree_.up_[l].data() + at(source) * points_;
                 to[count] = tree_.down_[l].data() + at(target) * points_;
-                count += (marks[at(source)] & kLoaded) && (marks[at(target)] & kWanted) ? 1 : 0;
+                count += (marks[at(source)] & kLoaded) && (marks[at(target)] & kRequested) ? 1 : 0;
             }
             if (count > 0)
                 kernels_.translate(static_cast<int>(points_), q_ * q_,
@@ -432,7 +432,7 @@ public:
     // From the parent.
     void down(std::size_t l, std::size_t k) const {
         const Generation& g = generations_[l];
-        if (!(tree_.marks_[l][k] & kWanted)) return;
+        if (!(tree_.marks_[l][k] & kRequested)) return;
         interpolation_.down(g.boxes[k].x & 1, g.boxes[k].y & 1,
                             tree_.down_[l + 1].data() + at(g.parent[k]) * points_,
                             tree_.down_[l].data() + k * points_);
@@ -440,7 +440,7 @@ public:
     void down_to_pixels(std::size_t t) const {
         double values[kTileColumns * kMostRows];
         std::fill_n(values, size_, 0.0);
-        const bool is_wanted = tree_.marks_[0][t] & kWanted;
+        const bool is_wanted = tree_.marks_[0][t] & kRequested;
         if (is_wanted) interpolation_.down_to_tile(tree_.down_[0].data() + t * points_, values);
         for (int o = 0; o < 9 && is_wanted; ++o) {
             const int s = layout_.around[t][at(o)];
@@ -468,19 +468,19 @@ private:
     const PixelKernels& kernels_;
     const double* const p_;
     double* const w_;
-    const char* const wanted_;
+    const char* const requested_;
 };
 
 // The boxes of one generation are pieces of parallel loops with all inside them; those above are a
 // piece of the transfers.
 void Tree::product(const Layout& layout, Interpolation& interpolation, std::size_t n,
-                   const double* p, double* w, const char* wanted) {
+                   const double* p, double* w, const char* requested) {
     if (n == 0) return;
     stopping_point();  // the caller may get no piece of the loops
     const auto& generations = layout.generations;
     const std::size_t levels = generations.size(), roots = layout.roots;
     const int threads = threads_for(generations[0].boxes.size());
-    const Passes pass(*this, layout, interpolation, n, p, w, wanted);
+    const Passes pass(*this, layout, interpolation, n, p, w, requested);
 
     // The boxes of each generation inside a root.
     using Ranges = std::array<std::array<std::size_t, 2>, 32>;

@@ -61,7 +61,7 @@ public:
         : path_(path), file_(path, std::ios::binary), length_(std::filesystem::file_size(path)) {}
 
     // Required size of the file in bytes; 0 for another kind of file.
-    std::uint64_t wanted_length() {
+    std::uint64_t needed_length() {
         char magic[4] = {};
         if (length_ < 4 || !file_.read(magic, 4) || std::memcmp(magic, "CDF", 3) != 0) return 0;
         version_ = magic[3];
@@ -186,7 +186,7 @@ private:
 
 void check_classic_length(const std::string& path) {
     ClassicHeader header(path);
-    const std::uint64_t needed = header.wanted_length();
+    const std::uint64_t needed = header.needed_length();
     if (header.length() < needed)
         bad_input(path, ": ends at byte ", header.length(), " of the ", needed,
                   " in its header; the file is truncated");

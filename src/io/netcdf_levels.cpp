@@ -106,7 +106,7 @@ void ResultTable::levels() {
             attributes = flags(kFallbackNames);
         append(attributes, comment(q.comment));
         const auto absent = [&](const LevelValues& l) {
-            return std::isnan(q.beside ? l.*q.beside : q.of(l));
+            return std::isnan(q.written_with ? l.*q.written_with : q.of(l));
         };
         if (!q.always && std::ranges::all_of(o_.rows, absent)) continue;
         if (q.integer()) {
@@ -299,20 +299,20 @@ void ResultTable::theory() {
     const Moments m = known ? *r_.theory : Moments{};
     const auto scalar = [&](const std::string& name, const std::string& units,
                             const std::string& long_name, double value, const std::string& note) {
-        add_absent(name, {}, units, long_name, {known ? value : kAbsent}, note);
+        add_absent(name, {}, units, long_name, {known ? value : kNotComputed}, note);
     };
     scalar("m0_theory", unit(2), "mean square height of the continuous spectrum", m.m0, "");
     scalar("m2_theory", "1", "second profile moment of the continuous spectrum", m.m2, "");
     scalar("m4_theory", unit(-2), "fourth profile moment of the continuous spectrum", m.m4, "");
     scalar("nayak_theory", "1", "Nayak's bandwidth parameter of the continuous spectrum",
-           known ? m.nayak() : kAbsent, "m0 m4/m2^2");
+           known ? m.nayak() : kNotComputed, "m0 m4/m2^2");
     scalar("density_theory", unit(-2), "density of summits of the continuous spectrum",
-           known ? m.summit_density() : kAbsent,
+           known ? m.summit_density() : kNotComputed,
            "sqrt(3) m4/(18 pi m2), with a lay of the isotropic surface before it is stretched");
     const double R = r_.indenter.shape->hertz_radius();
     add("e_star", unit(-2, 1), "equivalent modulus E*", r_.indenter.E_star,
         comment("1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2; on a body with layers that of the top layer"));
-    add_absent("r_star", {}, unit(1), "equivalent radius R*", {std::isfinite(R) ? R : kAbsent},
+    add_absent("r_star", {}, unit(1), "equivalent radius R*", {std::isfinite(R) ? R : kNotComputed},
                "1/R* = 1/R1 + 1/R2; missing for two flats and for shapes other than spheres");
     if (r_.indenter.period.line())
         add("line_reference", unit(1),
@@ -357,13 +357,14 @@ void ResultTable::regimes() {
     const bool known = has_closed_forms(r_.settings) && m.m2 > 0 && m.m4 > 0;
     std::vector<double> first, second, hertz;
     for (double N : o_.force.mean) {
-        if (N < 0) N = kAbsent;  // adhesion
-        first.push_back(known ? area_one_asperity(N, m.mean_radius(), E) : kAbsent);
-        second.push_back(known ? area_proportional(N, m.m2, E) : kAbsent);
-        hertz.push_back(smooth && std::isfinite(N) ? smooth->area_under(N) : kAbsent);
+        if (N < 0) N = kNotComputed;  // adhesion
+        first.push_back(known ? area_one_asperity(N, m.mean_radius(), E) : kNotComputed);
+        second.push_back(known ? area_proportional(N, m.m2, E) : kNotComputed);
+        hertz.push_back(smooth && std::isfinite(N) ? smooth->area_under(N) : kNotComputed);
     }
     add_absent("transition_force", {}, unit(0, 1), "force at which area_I = area_II, N*",
-               {known ? transition_force(m, E) : kAbsent}, "212.66 m2^(3/2) E*/m4, with " + which);
+               {known ? transition_force(m, E) : kNotComputed},
+               "212.66 m2^(3/2) E*/m4, with " + which);
     add_absent("area_I", {"step"}, unit(2), "contact area of one mean asperity at force_mean, A_I",
                first, "pi (3 r_g N/(4 E*))^(2/3), r_g = 0.737/sqrt(m4), with " + which);
     add_absent("area_II", {"step"}, unit(2), "contact area proportional to force_mean, A_II",
@@ -392,12 +393,12 @@ void ResultTable::two_flats(const Moments& m) {
                           std::sqrt(std::max(0.0, m.m0 - kSummitVariance * m.m2 * m.m2 / m.m4))};
     std::vector<double> persson, bush, greenwood;
     for (double N : o_.force.mean) {
-        if (N < 0) N = kAbsent;  // adhesion
+        if (N < 0) N = kNotComputed;  // adhesion
         const double p = N / (A0 * E * std::sqrt(2 * m2));
-        persson.push_back(m2 > 0 ? area_persson(p) : kAbsent);
-        bush.push_back(m2 > 0 ? area_bgt(p) : kAbsent);
+        persson.push_back(m2 > 0 ? area_persson(p) : kNotComputed);
+        bush.push_back(m2 > 0 ? area_bgt(p) : kNotComputed);
         greenwood.push_back(own.usable() && std::isfinite(N) ? area_gw(N / (A0 * E), own)
-                                                             : kAbsent);
+                                                             : kNotComputed);
     }
     const std::string which = "the mean of m2 over realizations";
     add_absent("area_persson", {"step"}, "1", "area fraction at force_mean by Persson's theory",

@@ -78,7 +78,7 @@ void ResultTable::radial() {
         for (double r : o_.radii)
             hertz.push_back(std::isfinite(R) && N >= 0
                                 ? hertz_contact(N, R, r_.indenter.E_star).pressure(r)
-                                : kAbsent);
+                                : kNotComputed);
     add_absent("hertz_pressure", dims, unit(-2, 1),
                "pressure of the smooth sphere at force_mean (Hertz)", hertz,
                "p0 sqrt(1 - r^2/a^2), p0 = 3 N/(2 pi a^2); missing for two flats and for shapes "
@@ -96,14 +96,14 @@ void ResultTable::distributions() {
     if (o_.distributions.empty()) return;
     file_.dimension("pdf_level", o_.distributions.size());
     file_.dimension("bin", at(o_.options.pdf.bins));
-    std::vector<double> wanted, used;
+    std::vector<double> requested, used;
     std::vector<std::int32_t> step;
-    for (double level : o_.options.pdf_levels) wanted.push_back(level / r_.sigma);
+    for (double level : o_.options.pdf_levels) requested.push_back(level / r_.sigma);
     for (const ShownDistributions& f : o_.distributions) {
         used.push_back(f.sum.separation / double(f.sum.levels) / r_.sigma);
         step.push_back(f.sum.step);
     }
-    add("pdf_level", {"pdf_level"}, "1", "requested Z0/sigma", wanted);
+    add("pdf_level", {"pdf_level"}, "1", "requested Z0/sigma", requested);
     add("pdf_separation_sigma", {"pdf_level"}, "1",
         "Z0/sigma of the nearest level, to which the distributions belong", used,
         comment("mean over realizations under force control"));

@@ -56,7 +56,7 @@ Result make_result(const Case& c, std::string case_text, const Indenter& indente
     result.settings = c;
     result.case_text = std::move(case_text);
     result.indenter = indenter;
-    result.sigma = sigma > 0 ? sigma : kAbsent;
+    result.sigma = sigma > 0 ? sigma : kNotComputed;
     result.theory = theory;
     result.observations = std::move(observations);
     return result;
@@ -68,15 +68,15 @@ void keep_contacts(Result& result, std::vector<Level>& levels, Contacts keep) {
     if (keep == Contacts::none || keep == Contacts::automatic) return;
     for (const auto s : indices(levels)) {
         Level& level = levels[s];
-        const bool kept = keep == Contacts::all || s + 1 == levels.size();
-        const std::size_t count = kept ? level.asperity.size() : 0;
+        const bool stored = keep == Contacts::all || s + 1 == levels.size();
+        const std::size_t count = stored ? level.asperity.size() : 0;
         if (packed.force.size() + count > at(std::numeric_limits<std::int32_t>::max()))
             bad_input(
                 "&output contacts: too many contacts for the indices of the result file; use "
                 "contacts='last' or 'none'");
         packed.start.push_back(std::int32_t(packed.force.size()));
         packed.count.push_back(std::int32_t(count));
-        if (!kept) continue;
+        if (!stored) continue;
         if (level.pixels.index.empty()) {
             append(packed.asperity, level.asperity);
         } else {

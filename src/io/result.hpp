@@ -71,7 +71,7 @@ struct Result {
     Case settings;
     std::string case_text;
     Indenter indenter;
-    double sigma = kAbsent;         // unit of length of separations
+    double sigma = kNotComputed;    // unit of length of separations
     std::optional<Moments> theory;  // closed forms; synthetic surfaces have them
     Observations observations;
     // Of one realization only:

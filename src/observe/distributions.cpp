@@ -61,7 +61,7 @@ double all_weights(const Histogram& h) {
 
 std::vector<double> density(const Histogram& h, double width) {
     const double total = all_weights(h);
-    std::vector<double> pdf(h.weight.size(), kAbsent);
+    std::vector<double> pdf(h.weight.size(), kNotComputed);
     if (!(total > 0)) return pdf;
     for (const auto b : indices(pdf)) pdf[b] = h.weight[b] / (total * width);
     return pdf;

@@ -90,12 +90,10 @@ void add(DistributionSums& sums, const Distributions& one);
 void add(DistributionSums& sums, const DistributionSums& more);
 Distributions rounded(const DistributionSums& sums, const PdfBins& bins, std::int64_t realizations);
 
-inline constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
-
 // NaN without contacts.
 struct DistributionMoments {
-    double mean = kAbsent, deviation = kAbsent, skewness = kAbsent,
-           kurtosis = kAbsent;  // kurtosis is 3 for a Gaussian
+    double mean = kNotComputed, deviation = kNotComputed, skewness = kNotComputed,
+           kurtosis = kNotComputed;  // kurtosis is 3 for a Gaussian
 };
 DistributionMoments moments_of(double count, const std::array<double, 4>& power);
 

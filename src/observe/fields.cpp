@@ -18,12 +18,12 @@ PointRange points_within(double origin, double step, int n, double low, double h
 }
 
 // Adds a force over the points within a spot, or the nearest point, in proportion to shape(t), t
-// being 1 at the centre and 0 at the rim (Spot::inside). Points with t above `beside` touch. If
+// being 1 at the centre and 0 at the rim (Spot::inside). Points with t above `threshold` touch. If
 // `whole`, the integral of the shape over the spot, is positive, points with t < edge share equally
 // what the others leave of it.
 template <class Shape>
 void add_spot(PressureMap& all, const HeightMap& map, bool repeats, const Spot& s, double force,
-              double beside, Shape&& shape, double whole = 0, double edge = 0) {
+              double threshold, Shape&& shape, double whole = 0, double edge = 0) {
     const auto range = [&](double origin, double step, int n, double centre, double along,
                            double across) {
         const double half = std::hypot(s.major * along, s.minor * across);
@@ -44,7 +44,7 @@ void add_spot(PressureMap& all, const HeightMap& map, bool repeats, const Spot& 
             const double p = whole > 0 && t < edge ? 0 : shape(t);
             Load& here = spot[std::int64_t{wrapped(j, map.ny)} * map.nx + wrapped(i, map.nx)];
             here.pressure += p;
-            here.touches = here.touches || t > beside;
+            here.touches = here.touches || t > threshold;
             sum += p;
             if (whole > 0 && t < edge) outermost.push_back(&here);
         }
@@ -59,7 +59,7 @@ void add_spot(PressureMap& all, const HeightMap& map, bool repeats, const Spot& 
         sum = 1;
         spot = {{std::int64_t{nearest(map.y0, map.dy, map.ny, s.y)} * map.nx +
                      nearest(map.x0, map.dx, map.nx, s.x),
-                 {1.0, beside < 1}}};
+                 {1.0, threshold < 1}}};
     }
     for (const auto& [point, load] : spot) {
         Load& here = all[point];

@@ -43,12 +43,12 @@ void add_cells(std::vector<CellSums>& sums, std::vector<CellSums> terms) {
 
 }  // namespace
 
-std::int32_t nearest_level(const std::vector<double>& levels, double wanted) {
+std::int32_t nearest_level(const std::vector<double>& levels, double requested) {
     std::int32_t best = -1;
     double least = kInfinity;
     for (const auto k : indices(levels))
-        if (const double distance = std::abs(levels[k] - wanted);
-            best < 0 || distance < least - 1e-9 * (least + std::abs(wanted))) {
+        if (const double distance = std::abs(levels[k] - requested);
+            best < 0 || distance < least - 1e-9 * (least + std::abs(requested))) {
             best = std::int32_t(k);
             least = distance;
         }
@@ -74,8 +74,8 @@ RealizationRecord observe(const ObserveOptions& options, std::int64_t realizatio
     }
     std::vector<double> separations;
     for (const Level& level : levels) separations.push_back(level.separation);
-    for (double wanted : options.pdf_levels) {
-        const std::int32_t step = nearest_level(separations, wanted);
+    for (double requested : options.pdf_levels) {
+        const std::int32_t step = nearest_level(separations, requested);
         if (step < 0) continue;
         const Level& level = levels[at(step)];
         Level no_contacts;
@@ -91,7 +91,7 @@ RealizationRecord observe(const ObserveOptions& options, std::int64_t realizatio
 LevelStatistics Observations::statistics(
     const std::function<double(const LevelValues&)>& of) const {
     LevelStatistics s;
-    s.mean.assign(steps, kAbsent);
+    s.mean.assign(steps, kNotComputed);
     s.deviation = s.error = s.mean;
     s.count.assign(steps, 0);
     for (std::size_t step = 0; step < steps; ++step) {

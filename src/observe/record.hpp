@@ -27,15 +27,17 @@ struct ObserveOptions {
 
 // Surface of a realization. NaN means absent (for example m2 of asperities read from a file).
 struct SurfaceStatistics {
-    double sigma = kAbsent;  // rms height [length]
-    double m2 = kAbsent,
-           m4 = kAbsent;  // profile moments from the modes drawn (synthetic) or the grid (measured)
-    MomentTensor tensor{kAbsent, kAbsent, kAbsent, kAbsent,
-                        kAbsent, kAbsent, kAbsent, kAbsent};  // by direction
-    double skewness = kAbsent, kurtosis = kAbsent;            // of non-Gaussian synthetic heights
-    double m2_grid = kAbsent, m4_grid = kAbsent;              // from finite differences
-    double mean_kappa_g = kAbsent,
-           mean_kappa_a = kAbsent;  // means of the summits' curvatures [1/length]
+    double sigma = kNotComputed;  // rms height [length]
+    double
+        m2 = kNotComputed,
+        m4 =
+            kNotComputed;  // profile moments from the modes drawn (synthetic) or the grid (measured)
+    MomentTensor tensor{kNotComputed, kNotComputed, kNotComputed, kNotComputed,
+                        kNotComputed, kNotComputed, kNotComputed, kNotComputed};  // by direction
+    double skewness = kNotComputed, kurtosis = kNotComputed;  // of non-Gaussian synthetic heights
+    double m2_grid = kNotComputed, m4_grid = kNotComputed;    // from finite differences
+    double mean_kappa_g = kNotComputed,
+           mean_kappa_a = kNotComputed;  // means of the summits' curvatures [1/length]
     std::int64_t summits = 0, saddles = 0;
 };
 
@@ -65,10 +67,10 @@ RealizationRecord observe(const ObserveOptions& options, std::int64_t realizatio
                           const SurfaceStatistics& surface, const std::vector<Level>& levels,
                           std::vector<double> curves = {});
 
-// Index of the level (its separation, force or pressure) nearest to the wanted one, the first of
+// Index of the level (its separation, force or pressure) nearest to the requested one, the first of
 // those that are equally near but for rounding;
 // -1 if there are no levels.
-std::int32_t nearest_level(const std::vector<double>& levels, double wanted);
+std::int32_t nearest_level(const std::vector<double>& levels, double requested);
 
 struct Observations;
 

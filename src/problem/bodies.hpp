@@ -42,7 +42,7 @@ struct Surface {
 Surface make_surface(const Case& settings, std::int64_t number, int threads);
 Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_t number,
                      int threads,
-                     const RowSource::Wanted& wanted = {});  // of spectrum_of(settings)
+                     const RowSource::Filter& filter = {});  // of spectrum_of(settings)
 
 // Points along a side of the element grid of a synthetic surface: elements%points_per_wave in the
 // shortest wavelength, or slightly more.

@@ -51,7 +51,7 @@ void require_maps(const Case& settings, const Domain& first) {
 // sum. Negative or NaN: not known.
 double m2_of_pressures(const Job& job) {
     const double other = job.indenter.shape->keys().m2;
-    if (!job.spectrum) return job.given ? job.given->statistics.m2 + other : kAbsent;
+    if (!job.spectrum) return job.given ? job.given->statistics.m2 + other : kNotComputed;
     const Case& c = job.settings;
     if (c.run.realizations > 1) return discrete_moments(*job.spectrum).m2 + other;
     const int n = 2 * int(std::ceil(shortest_wave(*job.spectrum))) +

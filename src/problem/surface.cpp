@@ -183,7 +183,7 @@ bool has_spectrum(const Case& settings) {
 }
 
 Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_t number,
-                     int threads, const RowSource::Wanted& wanted) {
+                     int threads, const RowSource::Filter& filter) {
     const auto& keys = settings.surface;
     Surface surface;
     surface.sigma = spectrum.sigma;
@@ -193,7 +193,7 @@ Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_
     const RowSource source(spectrum, keys.n, keys.normalise, settings.run.seed, number, threads);
     surface.sampled = source.sampled();
     surface.differences = source.differences();
-    surface.map = source.all(threads, wanted);
+    surface.map = source.all(threads, filter);
     return surface;
 }
 
@@ -216,13 +216,13 @@ int element_points(const Case& settings, const Spectrum& spectrum) {
 
 std::string too_large_for_elements(const Case& settings, const Spectrum& spectrum) {
     const double points_per_wave = settings.elements.points_per_wave,
-                 wanted = points_per_wave * shortest_wave(spectrum);
+                 requested = points_per_wave * shortest_wave(spectrum);
     constexpr double most = 32768;
-    if (wanted > most)
+    if (requested > most)
         return format(
             "&elements points_per_wave = %g: gives a grid of %.0f points a side; the maximum is "
             "%.0f",
-            points_per_wave, wanted, most);
+            points_per_wave, requested, most);
     const int n = element_points(settings, spectrum);
     // Memory for two flats: heights, the pressures on some pixels, transforms in single and double
     // precision.
@@ -459,7 +459,7 @@ Shape shape_of(const Case& settings) {
     made.rim_radius = keys.rim_radius;
     if (!keys.file.empty()) {
         Surface second = read_map(settings, keys.file, std::nullopt, keys.channel);
-        made.told = report(*second.measured, settings.run.length_unit);
+        made.report = report(*second.measured, settings.run.length_unit);
         made.filled = second.measured->filled;
         made.m2 = second.measured->moments.m2;
         SummitCount count;

@@ -53,7 +53,7 @@ void print(std::ostream& out, const Job& job, const ComparedLevel& c, const Leve
     else
         out << format("N %+.2f %%, A %+.2f %%, contacts %+.1f %%\n", 100 * c.force_error,
                       100 * c.area_error, 100 * c.contacts_error);
-    if (c.force_error_expected > kUnresolved)
+    if (c.force_error_expected > kMuchForceError)
         out << format(
             "  warning: a finer grid may change N of the elements by %s, so they are not a "
             "reliable reference.\n",
@@ -68,11 +68,11 @@ std::vector<std::size_t> steps_to_compare(const Job& job, const std::vector<Leve
     if (!job.settings.compare.listed()) return {levels.size() - 1};
     const bool by_force = job.settings.indentation.control != Control::separation;
     std::vector<std::size_t> steps;
-    for (const double wanted : job.settings.compare.levels) {
+    for (const double requested : job.settings.compare.levels) {
         std::size_t step = 0;
         const auto miss = [&](std::size_t k) {
             return std::abs((by_force ? levels[k].force : levels[k].separation) -
-                            wanted * job.level_unit);
+                            requested * job.level_unit);
         };
         const auto taken = [&](std::size_t k) { return contains(steps, k); };
         for (std::size_t k = 1; k < levels.size(); ++k) {

@@ -13,9 +13,9 @@ std::vector<std::int32_t> steps_of_fields(const Job& job) {
     const auto& keys = job.settings.output;
     if (keys.fields.empty()) return {};
     std::vector<std::int32_t> steps;
-    for (const double wanted : keys.field_levels)
-        steps.push_back(job.slides ? nearest_level(job.times, wanted)
-                                   : nearest_level(job.levels, wanted * job.level_unit));
+    for (const double requested : keys.field_levels)
+        steps.push_back(job.slides ? nearest_level(job.times, requested)
+                                   : nearest_level(job.levels, requested * job.level_unit));
     if (steps.empty()) steps.push_back(std::int32_t(job.levels.size()) - 1);
     return steps;
 }

@@ -167,7 +167,7 @@ struct Remarks {
                 return finer_by(
                     largest(cause,
                             [](const LevelValues& l) {
-                                return std::max({1.0, error_of_force(l) / kUnresolved,
+                                return std::max({1.0, error_of_force(l) / kMuchForceError,
                                                  l.area_error_expected / kMuchAreaError});
                             }),
                     "; only a map with smaller steps, or a harder pressed contact, removes this");

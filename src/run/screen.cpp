@@ -205,7 +205,7 @@ void print_measured(std::ostream& out, const Job& job) {
 void print_second(std::ostream& out, const Job& job) {
     const ShapeKeys& keys = job.indenter.shape->keys();
     if (!keys.map) return;
-    for (const std::string& line : keys.told) out << "body 2: " << line << '\n';
+    for (const std::string& line : keys.report) out << "body 2: " << line << '\n';
     const HeightMap& map = *keys.map;
     const Domain& d = job.domain;
     double dx = job.measured ? job.measured->dx : 0, dy = job.measured ? job.measured->dy : 0;

@@ -198,26 +198,27 @@ void check_manifest(const std::string& output_file, const std::vector<std::strin
                   " (give &output file another name)");
 }
 
-std::vector<const Member*> wanted_of(const ReadCase& read, const std::vector<Member>& all,
-                                     std::optional<int> only) {
-    std::vector<const Member*> wanted;
+std::vector<const Member*> requested_of(const ReadCase& read, const std::vector<Member>& all,
+                                        std::optional<int> only) {
+    std::vector<const Member*> requested;
     for (const Member& member : all)
-        if (!only || member.index == *only) wanted.push_back(&member);
-    if (only && (!read.study || wanted.empty()))
+        if (!only || member.index == *only) requested.push_back(&member);
+    if (only && (!read.study || requested.empty()))
         bad_input("--member", read.study ? joined(" ", *only, ": the study has ", all.size(),
                                                   " members (--list names them)")
                                          : ": the case has no &study");
-    return wanted;
+    return requested;
 }
 
-// Calls look_at and then `ready(member, true if a result exists)` for every wanted member; errors
+// Calls look_at and then `ready(member, true if a result exists)` for every requested member; errors
 // name the member. No result may replace an input of any of `all`.
 template <class Ready>
 void look_at_all(const ReadCase& read, const std::vector<Member>& all,
-                 const std::vector<const Member*>& wanted, const RunOptions& options, Ready ready) {
+                 const std::vector<const Member*>& requested, const RunOptions& options,
+                 Ready ready) {
     const std::vector<std::string> inputs = inputs_of(all, options);
     if (read.study) check_manifest(read.settings.output.file, inputs);
-    for (const Member* member : wanted) {
+    for (const Member* member : requested) {
         try {
             ready(*member, look_at(*member, options, inputs));
         } catch (const Error& error) {
@@ -373,20 +374,20 @@ CampaignWork make_work(const std::vector<Member>& members, const RunOptions& opt
 CheckedSize check_members(const ReadCase& read, std::optional<int> only, const RunOptions& options,
                           std::size_t threads) {
     const std::vector<Member> all = members_of(read);
-    const std::vector<const Member*> wanted = wanted_of(read, all, only);
+    const std::vector<const Member*> requested = requested_of(read, all, only);
     // members whose memory is estimated; the others are assumed similar
     constexpr std::size_t samples = 20;
     CheckedSize size;
     double most = -1;  // unknowns
     std::size_t estimated = 0;
     std::set<std::vector<std::string>> files_read;
-    look_at_all(read, all, wanted, options, [&](const Member& member, bool) {
+    look_at_all(read, all, requested, options, [&](const Member& member, bool) {
         const bool campaign = member.settings.run.realizations > 1;
         if (estimated == samples) return prepare_once(member.settings, files_read);
         ++estimated;
         // Members of one realization run in parallel.
         const double side_by_side =
-            campaign || wanted.size() == 1 ? 1.0 : double(std::min(threads, wanted.size()));
+            campaign || requested.size() == 1 ? 1.0 : double(std::min(threads, requested.size()));
         const double workers = double(threads);
         const Job job = prepare(member.settings);
         size.megabytes = std::max(size.megabytes, expected_megabytes(job, workers) * side_by_side);
@@ -400,20 +401,20 @@ CheckedSize check_members(const ReadCase& read, std::optional<int> only, const R
 RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunOptions& options,
                        CampaignWork& work, Team& team) {
     const std::vector<Member> all = members_of(read);
-    const std::vector<const Member*> wanted = wanted_of(read, all, only);
+    const std::vector<const Member*> requested = requested_of(read, all, only);
     std::set<std::vector<std::string>> files_read;
     std::set<const Member*> there;  // members with an existing result
-    look_at_all(read, all, wanted, options, [&](const Member& member, bool result_there) {
+    look_at_all(read, all, requested, options, [&](const Member& member, bool result_there) {
         if (result_there) there.insert(&member);
         // A single case is prepared later anyway.
         if (!member.values.empty()) prepare_once(member.settings, files_read);
     });
     if (read.study) write_manifest(read, all, options.command);
 
-    Run run(wanted.size(), options, work, team);
+    Run run(requested.size(), options, work, team);
     try {
         std::vector<const Member*> left;
-        for (const Member* member : wanted) {
+        for (const Member* member : requested) {
             const std::optional<RunSummary> done =
                 options.resume ? finished(*member) : std::nullopt;
             if (done)
@@ -429,7 +430,8 @@ RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunO
         const auto is_campaign = [](const Member* m) { return m->settings.run.realizations > 1; };
         for (auto from = left.begin(); from != left.end();) {
             leave_if_interrupted();
-            const auto to = wanted.size() > 1 ? std::find_if(from, left.end(), is_campaign) : from;
+            const auto to =
+                requested.size() > 1 ? std::find_if(from, left.end(), is_campaign) : from;
             if (to == from)
                 run.alone(**from++);
             else
@@ -437,12 +439,13 @@ RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunO
             from = std::max(from, to);
         }
     } catch (const Interrupted& stop) {
-        if (wanted.size() == 1) throw;
-        throw Interrupted(stop.signal(), stop.what(), "; ", run.finished(), " of ", wanted.size(),
+        if (requested.size() == 1) throw;
+        throw Interrupted(stop.signal(), stop.what(), "; ", run.finished(), " of ",
+                          requested.size(),
                           " members are finished; the same command with --resume keeps them");
     }
     if (read.study && options.table)
-        *options.table << wanted.size() << " of " << all.size()
+        *options.table << requested.size() << " of " << all.size()
                        << " members; the manifest: " << manifest_file(read.settings.output.file)
                        << std::endl;
     return run.sum();

@@ -55,15 +55,15 @@ Spectrum transposed(const Spectrum& spectrum) {
     return mirrored;
 }
 
-RowSource::RowSource(const Spectrum& wanted, int n, Normalise normalise, std::int64_t seed,
+RowSource::RowSource(const Spectrum& requested, int n, Normalise normalise, std::int64_t seed,
                      std::int64_t realization, int threads, double difference_step)
-    : n_(n), L_(wanted.L), exchanged_(made_as_transpose(wanted)) {
-    validate(wanted);
+    : n_(n), L_(requested.L), exchanged_(made_as_transpose(requested)) {
+    validate(requested);
     if (n < 2 || n % 2 != 0)
         throw Error(Failure::bad_input,
                     "surface: n must be even and at least 2, not " + std::to_string(n));
     if (!(difference_step > 0)) difference_step = L_ / n;
-    const Spectrum spectrum = exchanged_ ? transposed(wanted) : wanted;
+    const Spectrum spectrum = exchanged_ ? transposed(requested) : requested;
     const Band limits = band(spectrum);
     columns_ = limits.highest_kx + 1;
     // Only the real part of a mode at n/2 is visible on the grid, so only the Gaussian modes (n/2,
@@ -200,10 +200,10 @@ void RowSource::rows(int j, int count, double* out, std::ptrdiff_t stride, Scrat
     }
 }
 
-HeightMap RowSource::all(int threads, const Wanted& wanted) const {
-    constexpr int piece = 64;  // a page of memory is taken if one of its pieces is wanted
-    const bool direct = !exchanged_ && !wanted;
-    HeightMap map = empty_map(L_, n_, !exchanged_ && wanted);
+HeightMap RowSource::all(int threads, const Filter& filter) const {
+    constexpr int piece = 64;  // a page of memory is taken if one of its pieces is requested
+    const bool direct = !exchanged_ && !filter;
+    HeightMap map = empty_map(L_, n_, !exchanged_ && filter);
     // So many rows at once that what they write to a row of an exchanged surface is whole lines of
     // the cache.
     const int wide = direct ? 4 * kBlock : 2 * kBlock;
@@ -220,11 +220,11 @@ HeightMap RowSource::all(int threads, const Wanted& wanted) const {
         const int first = b * wide, count = std::min(wide, n_ - first);
         double* const made = direct ? map.row(first) : block[worker].get();
         rows(first, count, made, stride, scratch[worker]);
-        if (!exchanged_ && wanted)
+        if (!exchanged_ && filter)
             for (const int r : indices(count))
                 for (int i = 0; i < n_; i += piece) {
                     const double* const z = made + r * stride + i;
-                    if (const int points = std::min(piece, n_ - i); wanted(first + r, i, points, z))
+                    if (const int points = std::min(piece, n_ - i); filter(first + r, i, points, z))
                         std::copy_n(z, points, map.row(first + r) + i);
                 }
         else if (exchanged_)

@@ -42,11 +42,11 @@ public:
 
     // Whether some of the heights z[0 ... count - 1], at the points (first ..., row) of the map,
     // are needed; called on all threads.
-    using Wanted = std::function<bool(int row, int first, int count, const double* z)>;
+    using Filter = std::function<bool(int row, int first, int count, const double* z)>;
 
-    // All heights, x and y in their places. If `wanted` is given, pieces of rows that it refuses
+    // All heights, x and y in their places. If `filter` is given, pieces of rows that it refuses
     // may be 0; they take no memory.
-    HeightMap all(int threads, const Wanted& wanted = {}) const;
+    HeightMap all(int threads, const Filter& filter = {}) const;
 
     // Writes rows j, j+1, ... j+count-1 (j modulo n) to out, out+stride, ...; rows must be aligned
     // to 64 bytes. The values of a row depend, bit for bit, only on j.

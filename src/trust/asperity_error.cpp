@@ -78,8 +78,8 @@ double share_on_spikes(const Level& level, const SolverOptions& options) {
     return force / level.force;
 }
 
-bool may_touch_beside(const Asperities& asperities, const Indenter& indenter,
-                      const SolverOptions& options, double Z0) {
+bool may_touch_between(const Asperities& asperities, const Indenter& indenter,
+                       const SolverOptions& options, double Z0) {
     const double w = options.surface.mean_spacing;
     if (!(w > 0)) return false;
     // Grid points lie below the tops between them, which are within half a step in both directions.

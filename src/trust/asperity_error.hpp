@@ -31,7 +31,7 @@ double share_on_spikes(const Level& level, const SolverOptions& options);
 // True if the bodies may touch at a separation although no summit touches: within the mean spacing
 // of a summit (of the difference, for laws that shift summits) the surface is not higher than its
 // top, and the indenter may be lower than above it.
-bool may_touch_beside(const Asperities& asperities, const Indenter& indenter,
-                      const SolverOptions& options, double Z0);
+bool may_touch_between(const Asperities& asperities, const Indenter& indenter,
+                       const SolverOptions& options, double Z0);
 
 }  // namespace rsc

@@ -141,7 +141,7 @@ std::vector<Doubt> Judge::of_asperities(Level& level, const Path& contact) const
         if (is) doubts.push_back({cause});
     };
     if (level.contacts == 0 && level.force == 0) {
-        doubt(may_touch_beside(*contact.asperities(), indenter, options_, level.separation),
+        doubt(may_touch_between(*contact.asperities(), indenter, options_, level.separation),
               Cause::missed_contact);
         return doubts;
     }
@@ -237,7 +237,7 @@ Doubt Judge::grid(const Level& level, Path& contact) const {
     const GridError crests = error_of_crests(level, stiffness, map, indenter, surface_.curvature);
     doubt.force = std::max(by_size.force, crests.force);
     doubt.area = std::max(by_size.area, crests.area);
-    doubt.serious = doubt.force > kUnresolved || doubt.area > kMuchAreaError;
+    doubt.serious = doubt.force > kMuchForceError || doubt.area > kMuchAreaError;
     return doubt;
 }
 

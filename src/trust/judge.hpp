@@ -12,12 +12,12 @@ namespace rsc {
 
 // Larger expected errors of N and A of elements are a doubt. Under a prescribed force that of N is
 // an error of the separation.
-inline constexpr double kUnresolved = 0.03, kMuchAreaError = 0.1;
+inline constexpr double kMuchForceError = 0.03, kMuchAreaError = 0.1;
 
 // Mean curvature of a synthetic surface at points of unit height [1/length^2].
 Tensor curvature_at_unit_height(const Moments& moments);
 
-// What of the surface the judgement depends on, beside the options of the solver.
+// What of the surface the judgement depends on, besides the options of the solver.
 struct JudgedSurface {
     const HeightMap* map = nullptr;  // of elements; must outlive the judge
     // Elements on a synthetic surface: curvature_at_unit_height().

@@ -48,7 +48,7 @@ std::vector<LevelQuantity> adhesion_quantities() {
                     "two levels; "
                     "steps short beside adhesion_range tell jumps from smooth changes",
          .always = false,
-         .beside = &V::least_force},
+         .written_with = &V::least_force},
         {.name = "least_force",
          .member = &V::least_force,
          .force_power = 1,

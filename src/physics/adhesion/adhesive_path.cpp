@@ -184,7 +184,7 @@ bool AdhesivePath::begin(double target) {
     jumps = steps = 0;
     products_before = direct->count() + (mesh ? mesh->count() : 0);
     lost_way = false;
-    wanted.reset();
+    requested.reset();
     held.clear();
     last = {};
     here = {};
@@ -412,36 +412,36 @@ void AdhesivePath::hold() {
     for (const auto k : indices(here.active)) held[at(here.active[k])] = here.residuals[k];
 }
 
-// The length of the next step under force control: about that to the wanted force, as far as it can
+// The length of the next step under force control: about that to the requested force, as far as it can
 // be foreseen.
 double AdhesivePath::reach(double direction) const {
-    const double toward = direction * (*wanted - here.force) / here.dforce,
+    const double toward = direction * (*requested - here.force) / here.dforce,
                  far = 0.5 * std::abs(ranking.highest() - here.Z) +
                        scale(here.active.empty() ? 0 : here.active[0]);
     return toward > 0 ? std::min(1.01 * toward, 4 * far) : far;
 }
 
-// Follows the path from `here` to a separation, or to the first state with the wanted force. Where
+// Follows the path from `here` to a separation, or to the first state with the requested force. Where
 // it cannot be followed, lost_way is set. Returns false if everything detached before.
 bool AdhesivePath::follow(double target) {
     double blocked_at = kNotComputed;  // where the last step that failed would have ended
     const double direction = target > here.Z ? 1 : -1;
     for (long guard = 0; here.Z != target && !lost_way; ++guard) {
         if (here.active.empty() && direction > 0 && !motion) return false;
-        const double rest = std::abs(target - here.Z), most = wanted ? reach(direction) : rest;
+        const double rest = std::abs(target - here.Z), most = requested ? reach(direction) : rest;
         const Step step = next_step(
             most, direction, std::isnan(blocked_at) ? kInfinity : std::abs(blocked_at - here.Z));
         const double Z = step.length >= rest ? target : here.Z + direction * step.length;
         if (Z == here.Z || guard > kMostSteps) return lost_way = true;
         if (Z - margin < covered) {
-            lost_way = !cover(wanted ? Z - most : std::min(Z, target));
+            lost_way = !cover(requested ? Z - most : std::min(Z, target));
             continue;
         }
         if (step.jump) hold();
         Point there = predicted(Z, step.jump);
-        const double accuracy = Z == target                         ? 0.0
-                                : std::isnan(blocked_at) && !wanted ? kOnTheWay
-                                                                    : kInJump;
+        const double accuracy = Z == target                            ? 0.0
+                                : std::isnan(blocked_at) && !requested ? kOnTheWay
+                                                                       : kInJump;
         const Found found = descend(there, step.jump, accuracy);
         held.clear();
         if (found == Found::raised) {
@@ -451,7 +451,7 @@ bool AdhesivePath::follow(double target) {
         }
         const bool same = there.active == here.active;
         if (found == Found::equilibrium && (step.jump || !hides(there))) {
-            if (same && find_wanted(there)) return true;
+            if (same && find_requested(there)) return true;
             accept(std::move(there), step);
             if (step.jump || !(direction * (blocked_at - here.Z) > 0)) blocked_at = kNotComputed;
             continue;
@@ -474,16 +474,16 @@ bool AdhesivePath::follow_to_force(double N) {
     (void)begin(accepted.asperity.empty() ? -far : accepted.separation);
     if (lost_way || std::abs(here.force - N) <= 0.1 * options.tolerance * std::abs(N)) return true;
     const bool down = here.force < N && !(here.active.empty() && N < 0);
-    wanted = N;
+    requested = N;
     return follow(down ? -far : far);
 }
 
 // True if a step must be divided, because it may pass over something: an attachment, if the same
-// asperities are attached as before, otherwise the smallest force so far or the wanted one.
+// asperities are attached as before, otherwise the smallest force so far or the requested one.
 bool AdhesivePath::hides(const Point& there) const {
     if (there.active == here.active) return touches_between(there);
     return hides_least_force(there) ||
-           (wanted && (here.force - *wanted) * (there.force - *wanted) <= 0);
+           (requested && (here.force - *requested) * (there.force - *requested) <= 0);
 }
 
 // Goes on from the next state, with the energy lost on the way to it.
@@ -580,33 +580,33 @@ AdhesivePath::Point AdhesivePath::least_between(const Point& there, double bound
 }
 
 // Notes the smallest force between `here` and a state with the same attached asperities, and goes
-// to the wanted force if it is there.
-bool AdhesivePath::find_wanted(const Point& there) {
-    const double bound = wanted ? std::max(*wanted, now.least_force) : now.least_force;
+// to the requested force if it is there.
+bool AdhesivePath::find_requested(const Point& there) {
+    const double bound = requested ? std::max(*requested, now.least_force) : now.least_force;
     const Point least = least_between(there, bound);
     const auto within = [&](const Point& end) {
-        return wanted && (here.force - *wanted) * (end.force - *wanted) <= 0;
+        return requested && (here.force - *requested) * (end.force - *requested) <= 0;
     };
     if (within(least) && find_force(least)) return true;
     now.least_force = std::min(now.least_force, least.force);
     return within(there) && find_force(there);
 }
 
-// Goes to the state with the wanted force between `here` and another one on its other side.
+// Goes to the state with the requested force between `here` and another one on its other side.
 bool AdhesivePath::find_force(const Point& there) {
-    const double precise =
-        0.1 * options.tolerance *
-        std::max(std::abs(*wanted), 1e-3 * std::max(std::abs(here.force), std::abs(there.force)));
+    const double precise = 0.1 * options.tolerance *
+                           std::max(std::abs(*requested),
+                                    1e-3 * std::max(std::abs(here.force), std::abs(there.force)));
     const bool down = there.Z < here.Z;
     Point low = down ? there : here, high = down ? here : there, middle;
-    const auto next = [&](const Point& p) { return p.Z + (*wanted - p.force) / p.dforce; };
+    const auto next = [&](const Point& p) { return p.Z + (*requested - p.force) / p.dforce; };
     bool found = false;
     const auto evaluate = [&](double Z, Bracket& bracket, int i) {
         if (!find_between(low, high, (Z - low.Z) / (high.Z - low.Z), middle))
             return bracket.close(Z);
-        found = std::abs(middle.force - *wanted) <= precise;
+        found = std::abs(middle.force - *requested) <= precise;
         if (found) return bracket.close(Z);
-        ((middle.force < *wanted) == (low.force < *wanted) ? low : high) = middle;
+        ((middle.force < *requested) == (low.force < *requested) ? low : high) = middle;
         bracket = {low.Z, high.Z};
         return i % 8 == 7 ? kNotComputed : next(middle);
     };

@@ -42,8 +42,8 @@ struct AdhesivePath : ContactBodies {
     Past accepted, now;
     int jumps = 0, steps = 0;
     long products_before = 0;
-    std::optional<double> wanted;  // force at which follow() ends
-    bool lost_way = false;         // the path could not be followed, e.g. an avalanche did not end
+    std::optional<double> requested;  // force at which follow() ends
+    bool lost_way = false;  // the path could not be followed, e.g. an avalanche did not end
 
     // Working set: asperities that may attach, and the attached ones.
     WorkingSet set;
@@ -143,7 +143,7 @@ private:
     void accept(Point there, const Step& step);
     bool find_between(const Point& a, const Point& b, double share, Point& middle);
     Point least_between(const Point& there, double bound);
-    bool find_wanted(const Point& there);
+    bool find_requested(const Point& there);
     bool find_force(const Point& there);
     double dissipated(const Point& there, double ahead, bool detaches) const;
 

@@ -197,7 +197,8 @@ AdhesivePixels::AdhesivePixels(const HeightMap& heights_, const Indenter& indent
         raised = heights.copy();
         set_clearances();
         flats = std::make_unique<PeriodicElements>(
-            Relief{raised.nx, raised.ny, raised.dx, raised.dy, raised.data.get(), raised.stride},
+            PeriodicHeights{raised.nx, raised.ny, raised.dx, raised.dy, raised.data.get(),
+                            raised.stride},
             body, kInfinity);
     } else {
         bulge = body.bulge();

@@ -39,7 +39,7 @@ double permeability_points(double bytes);
 // S_as = <(g/2) (e_a + grad P_a)_s>, P_a the pressure of the mean gradient along a, g the mean gap
 // of two open neighbours. `flow`: if not null, the magnitude of the flux at each point times
 // eta for a mean gradient 1 along x [length^3], row by row. Links so narrow that rounding hides
-// them beside the widest are left out. Throws Error(no_memory), and Error(internal) without
+// them next to the widest are left out. Throws Error(no_memory), and Error(internal) without
 // CHOLMOD or if the equations are not solved to 1e-11 of K.
 GapFlow permeability(const GapMap& map, std::vector<double>* flow = nullptr);
 

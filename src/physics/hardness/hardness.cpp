@@ -338,7 +338,7 @@ std::vector<LevelQuantity> hardness_quantities() {
              "mean pressure at the hardness H = H0 sqrt(1 + l/r), at the largest penetration so "
              "far; boundary elements: contacts with a pixel at the hardness",
          .always = false,
-         .beside = &V::plastic_work},
+         .written_with = &V::plastic_work},
         {.name = "yielding_share",
          .member = &V::yielding_share,
          .unit = "1",

@@ -6,8 +6,6 @@
 namespace rsc {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
 // B f at all points, for forces f at the first f.size() points.
 std::vector<double> deflections(Products& products, const std::vector<double>& x,
                                 const std::vector<double>& y, const std::vector<double>& f,
@@ -35,13 +33,13 @@ RelaxingAsperities::RelaxingAsperities(const Asperities& asperities, const Inden
       creep_(body),
       tolerance_(tolerance),
       steps_(body.shortest()),
-      lowered_(asperities.size(), kUnknown) {}
+      lowered_(asperities.size(), kNotComputed) {}
 
 void RelaxingAsperities::step(double dt) {
     law_.step(dt);
     rests_ = law_.rests();
     rest_ = sum_of(rests_);
-    for (int i : known_) lowered_[at(i)] = kUnknown;
+    for (int i : known_) lowered_[at(i)] = kNotComputed;
     known_.clear();
 }
 
@@ -79,21 +77,21 @@ void RelaxingAsperities::lower(Candidates& candidates, Products& products) {
         for (const auto k : indices(places)) keep(places[k], phi[k]);
         for (const auto k : indices(elsewhere)) keep(elsewhere[k], phi[places.size() + k]);
     }
-    std::size_t kept = 0;
+    std::size_t remaining = 0;
     for (const auto k : indices(set.g0)) {
         const double g0 = set.g0[k] - lowered_[at(set.asperity[k])];
         if (!(g0 > 0)) continue;
-        set.asperity[kept] = set.asperity[k];
-        set.x[kept] = set.x[k];
-        set.y[kept] = set.y[k];
-        candidates.rank[kept] = candidates.rank[k];
-        set.g0[kept++] = g0;
+        set.asperity[remaining] = set.asperity[k];
+        set.x[remaining] = set.x[k];
+        set.y[remaining] = set.y[k];
+        candidates.rank[remaining] = candidates.rank[k];
+        set.g0[remaining++] = g0;
     }
-    set.asperity.resize(kept);
-    set.x.resize(kept);
-    set.y.resize(kept);
-    set.g0.resize(kept);
-    candidates.rank.resize(kept);
+    set.asperity.resize(remaining);
+    set.x.resize(remaining);
+    set.y.resize(remaining);
+    set.g0.resize(remaining);
+    candidates.rank.resize(remaining);
 }
 
 void RelaxingAsperities::accept(const WorkingSet& candidates, const Solution& solution,
