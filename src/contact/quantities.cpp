@@ -447,6 +447,10 @@ double error_of_least_force(std::span<const LevelValues> levels) {
         return std::isnan(level.force) ? kInfinity : level.force;
     });
     if (least == levels.end()) return kNotComputed;
+    const auto breaks_early = [](const LevelValues& level) {
+        return level.contacts > 0 && level.status == LevelStatus::out_of_validity;
+    };
+    if (std::any_of(least + 1, levels.end(), breaks_early)) return kNotComputed;
     if (least->force_error_expected >= 0) return least->force_error_expected;
     return least->separation_error_expected * std::abs(least->stiffness / least->force);
 }

@@ -109,7 +109,8 @@ std::optional<QuantityComponent> find_quantity(std::string_view name);
 std::string names_of_quantities();  // separated by commas
 
 // Expected relative error of the smallest force of a realization: that of N at the level of the
-// smallest N. NaN: none is stated.
+// smallest N. NaN: none is stated, e.g. where a later level is outside the range of validity: its
+// contacts may come apart too early, and would pull harder if they did not.
 double error_of_least_force(std::span<const LevelValues> levels);
 
 // Computes the quantities of a level that no case needs to ask for, and in a run also those that
