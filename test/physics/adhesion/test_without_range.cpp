@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "check.hpp"
 #include "contact/make.hpp"
+#include "contact/quantities.hpp"
 #include "interaction/kernel.hpp"
 #include "physics/adhesion/adhesive_edges.hpp"
 #include "physics/adhesion/sticking.hpp"
@@ -167,6 +168,22 @@ TEST(test_wavy_sphere) {
 
 // Pull-off and energy lost do not depend on the number of levels, but for the last force before
 // contact is lost.
+TEST(test_error_of_the_smallest_force) {
+    // That of N there, unless contacts outside the range of validity come apart later: on a finer
+    // grid they may hold longer and pull harder.
+    std::vector<LevelValues> levels(3);
+    for (LevelValues& level : levels) level.contacts = 1;
+    levels[1].force = -2;
+    levels[1].force_error_expected = 0.02;
+    CHECK(error_of_least_force(levels) == 0.02);
+    levels[0].status = LevelStatus::out_of_validity;
+    CHECK(error_of_least_force(levels) == 0.02);
+    levels[2].status = LevelStatus::out_of_validity;
+    CHECK(std::isnan(error_of_least_force(levels)));
+    levels[2].contacts = 0;
+    CHECK(error_of_least_force(levels) == 0.02);
+}
+
 TEST(test_number_of_levels) {
     const Loop few = loop(64, 6), many = loop(64, 24);
     CHECK_CLOSE(few.lost, many.lost, 0.01);
