@@ -28,10 +28,8 @@ struct ObserveOptions {
 // Surface of a realization. NaN means absent (for example m2 of asperities read from a file).
 struct SurfaceStatistics {
     double sigma = kNotComputed;  // rms height [length]
-    double
-        m2 = kNotComputed,
-        m4 =
-            kNotComputed;  // profile moments from the modes drawn (synthetic) or the grid (measured)
+    // Profile moments from the modes drawn (synthetic) or the grid (measured).
+    double m2 = kNotComputed, m4 = kNotComputed;
     MomentTensor tensor{kNotComputed, kNotComputed, kNotComputed, kNotComputed,
                         kNotComputed, kNotComputed, kNotComputed, kNotComputed};  // by direction
     double skewness = kNotComputed, kurtosis = kNotComputed;  // of non-Gaussian synthetic heights

@@ -210,8 +210,8 @@ std::vector<const Member*> requested_of(const ReadCase& read, const std::vector<
     return requested;
 }
 
-// Calls look_at and then `ready(member, true if a result exists)` for every requested member; errors
-// name the member. No result may replace an input of any of `all`.
+// Calls look_at and then `ready(member, true if a result exists)` for every requested member;
+// errors name the member. No result may replace an input of any of `all`.
 template <class Ready>
 void look_at_all(const ReadCase& read, const std::vector<Member>& all,
                  const std::vector<const Member*>& requested, const RunOptions& options,

@@ -412,8 +412,8 @@ void AdhesivePath::hold() {
     for (const auto k : indices(here.active)) held[at(here.active[k])] = here.residuals[k];
 }
 
-// The length of the next step under force control: about that to the requested force, as far as it can
-// be foreseen.
+// The length of the next step under force control: about that to the requested force, as far as it
+// can be foreseen.
 double AdhesivePath::reach(double direction) const {
     const double toward = direction * (*requested - here.force) / here.dforce,
                  far = 0.5 * std::abs(ranking.highest() - here.Z) +
@@ -421,8 +421,8 @@ double AdhesivePath::reach(double direction) const {
     return toward > 0 ? std::min(1.01 * toward, 4 * far) : far;
 }
 
-// Follows the path from `here` to a separation, or to the first state with the requested force. Where
-// it cannot be followed, lost_way is set. Returns false if everything detached before.
+// Follows the path from `here` to a separation, or to the first state with the requested force.
+// Where it cannot be followed, lost_way is set. Returns false if everything detached before.
 bool AdhesivePath::follow(double target) {
     double blocked_at = kNotComputed;  // where the last step that failed would have ended
     const double direction = target > here.Z ? 1 : -1;

@@ -14,8 +14,8 @@ namespace {
 constexpr double kCoarsest = 0.5, kFine = 4;
 // Without a range: largest side of a pixel over the thickness of a layer.
 constexpr double kOfLayer = 0.5;
-// Without a range: shortest part of the way to a level, relative to it, and the error of the work of
-// a part.
+// Without a range: shortest part of the way to a level, relative to it, and the error of the work
+// of a part.
 constexpr double kShortestOfEdges = 1.0 / 16, kWorkError = 0.01;
 // With a range: parts into which the way is divided at most, to see what it loses.
 constexpr int kMostParts = 10;
@@ -400,8 +400,8 @@ bool AdhesivePixels::load(double Z, double tolerance, Level& level) {
     }
 }
 
-// The energy of a state that has just been found, and its gaps at the tracked points, by products in
-// full accuracy.
+// The energy of a state that has just been found, and its gaps at the tracked points, by products
+// in full accuracy.
 void AdhesivePixels::open(Past& state) {
     gather(state.separation);
     std::vector<double> p(reach.size());

@@ -219,9 +219,9 @@ TEST(test_no_force) {
     }
 }
 
-// A level next to another one takes a number of products that is bounded by that of a first one, and
-// towards the surface has its state: attraction closes gaps, and closed gaps attract more, so that
-// the state next to that of bodies apart is one, whatever the levels on the way. The loss of a
+// A level next to another one takes a number of products that is bounded by that of a first one,
+// and towards the surface has its state: attraction closes gaps, and closed gaps attract more, so
+// that the state next to that of bodies apart is one, whatever the levels on the way. The loss of a
 // cycle in few levels is the work of one in many.
 TEST(test_later_levels) {
     const double h = 0.1 / 32, range = 9e-4;
