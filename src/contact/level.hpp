@@ -186,7 +186,7 @@ struct LevelPixels {
     template <class Visit>
     void each(Visit&& visit) const {
         for (const auto k : indices(index))
-            visit(index[k], pressure[k], contact.empty() ? 0 : contact[k]);
+            visit(index[k], pressure[k], k < contact.size() ? contact[k] : 0);
         for (const auto k : indices(cohesive)) visit(cohesive[k], attraction[k], -1);
     }
     bool empty() const { return index.empty() && cohesive.empty(); }
