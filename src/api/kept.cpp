@@ -44,9 +44,13 @@ double digest(const SurfaceModel& on) {
     return double(hash >> 11);  // exact as a double
 }
 
+// Texts and numbers by name, written or read. What a file of an earlier version lacks keeps its
+// default.
 struct Entries {
-    std::map<std::string, Numbers> numbers;
-    std::map<std::string, std::string> texts;
+    bool reading = false;
+    std::map<std::string, Numbers> numbers = {};
+    std::map<std::string, std::string> texts = {};
+    bool has(const std::string& name) const { return numbers.contains(name); }
     const Numbers& of(const std::string& name) const {
         const auto found = numbers.find(name);
         if (found == numbers.end()) bad_input(kBroken);
@@ -55,6 +59,39 @@ struct Entries {
     double one(const std::string& name) const {
         if (of(name).size() != 1) bad_input(kBroken);
         return of(name)[0];
+    }
+
+    // An entry of several values; false if it is not there.
+    template <class... T>
+    bool row(const std::string& name, T&... values) {
+        if (!reading) numbers[name] = {double(values)...};
+        if (!has(name)) return false;
+        const Numbers& found = of(name);
+        if (found.size() != sizeof...(values)) bad_input(kBroken);
+        auto next = found.begin();
+        if (reading) ((values = static_cast<T>(*next++)), ...);
+        return true;
+    }
+    // An entry of many objects, of whose values `fields` makes a tuple of references.
+    template <class Vector, class Fields>
+    void rows(const std::string& name, Vector& all, Fields fields) {
+        if (reading && !has(name)) return;
+        Numbers& flat = numbers[name];
+        if (!reading) {
+            for (auto& one : all)
+                std::apply([&](auto&... v) { append(flat, {double(v)...}); }, fields(one));
+            return;
+        }
+        typename Vector::value_type one{};
+        if (flat.size() % std::tuple_size_v<decltype(fields(one))> != 0) bad_input(kBroken);
+        all.clear();
+        for (auto next = flat.begin(); next != flat.end(); all.push_back(one))
+            std::apply(
+                [&](auto&... v) { ((v = static_cast<std::decay_t<decltype(v)>>(*next++)), ...); },
+                fields(one));
+    }
+    void list(const std::string& name, auto& values) {
+        rows(name, values, [](auto& value) { return std::tie(value); });
     }
 };
 
@@ -97,7 +134,7 @@ Entries read(const std::string& path, const char* what) {
     const std::string_view body = std::string_view(all).substr(head.size() + sizeof hash);
     if (mix(kHash, body.data(), body.size()) != hash) refuse("is damaged");
     ArchiveReader reader(body, Failure::bad_input, kBroken);
-    Entries entries;
+    Entries entries{true};
     std::vector<char> name, text;
     std::uint64_t count = 0;
     for (reader(count); count > 0; --count) {
@@ -137,19 +174,18 @@ std::unique_ptr<rsc_contact> get_making(const Entries& from, const rsc_asperitie
     const SurfaceModel& on = *asperities.model;
     if (from.one("ground") != digest(on))
         refuse(2, "asperities", "must be the ones that the file was saved with");
-    const Numbers& tip = from.of(from.numbers.contains("first") ? "first" : "tip");
+    const Numbers& tip = from.of(from.has("first") ? "first" : "tip");
     if (tip.size() != 2 || !from.texts.contains("case")) bad_input(kBroken);
     const auto keys = std::make_shared<const Case>(read_namelist(from.texts.at("case")).settings);
     const SurfaceDomain domain = domain_of(*keys, on);
-    const bool given = from.numbers.contains("given");
+    const bool given = from.has("given");
     Indenter indenter = given ? Indenter{from.of("given").at(0), from.of("given").at(1), 0, 0,
                                          period_of(*keys, domain)}
                               : indenter_of(*keys, domain);
     indenter.x0 = tip[0];
     indenter.y0 = tip[1];
     indenter = surrounded(std::move(indenter), domain);
-    if (from.numbers.contains("moved") && from.one("moved") != 0)
-        indenter.around = indenter.repeats;
+    if (from.has("moved") && from.one("moved") != 0) indenter.around = indenter.repeats;
     auto made = std::make_unique<rsc_contact>(asperities.model, keys, indenter);
     if (given) made->given = {from.of("given")[0], from.of("given")[1]};
     return made;
@@ -157,213 +193,140 @@ std::unique_ptr<rsc_contact> get_making(const Entries& from, const rsc_asperitie
 
 // --- states
 
-// Visits the arrays of a level with their names.
-template <class Visit>
-void visit_arrays(Level& level, Visit&& visit) {
-    visit("asperity", level.asperity);
-    visit("yields", level.yields);
-    visit("x", level.x);
-    visit("y", level.y);
-    visit("f", level.f);
-    visit("a", level.a);
-    visit("u", level.u);
-    visit("pixel", level.pixels.index);
-    visit("pixel_contact", level.pixels.contact);
-    visit("pixel_pressure", level.pixels.pressure);
-    LevelTractions& t = level.tractions;
-    visit("attached_x", t.x);
-    visit("attached_y", t.y);
-    visit("attached_a", t.a);
-    visit("attached_c", t.c);
-    visit("attached_pressed", t.pressed);
-    visit("attached_pulled", t.pulled);
-    visit("pixel_cohesive", level.pixels.cohesive);
-    visit("pixel_attraction", level.pixels.attraction);
-    visit("own_area", level.own_area);
-    visit("gaps", level.gaps.of_bin);
-}
-
 constexpr const char* kComponents[] = {"", ".y", ".z", ".yx"};  // of a quantity of a level
 
-void put_state(Entries& to, const std::string& prefix, const Path::State& state) {
-    to.numbers[prefix + "tip"] = {state.x0, state.y0};
-    to.numbers[prefix + "clock"] = {state.clock, double(state.moved)};
-    to.numbers[prefix + "accepted"] = {state.time, state.separation, state.force};
-    to.numbers[prefix + "history"] = state.history;
-    to.texts[prefix + "solution"] = state.solution;
-    if (!state.level) return;
-    Level level = *state.level;
-    to.numbers[prefix + "level"] = {level.separation, state.level_x0, state.level_y0};
+void transfer(Entries& entries, const std::string& prefix, Level& level) {
     for (const LevelQuantity& q : level_quantities())
-        for (const auto c : indices(q.components()))
-            to.numbers[prefix + "level." + q.name + kComponents[c]] = {q.of(level, c)};
-    visit_arrays(level, [&](const char* name, const auto& values) {
-        to.numbers[prefix + "level." + name] = {values.begin(), values.end()};
-    });
-    const LevelPixels& p = level.pixels;
-    to.numbers[prefix + "level.pixels"] = {double(p.columns), p.x0, p.y0, p.dx, p.dy};
-    Numbers& more = to.numbers[prefix + "level.more"];
-    more = {double(level.converged), double(level.unique), double(level.gaps.beyond)};
-    to.numbers[prefix + "level.errors"] = {level.errors.begin(), level.errors.end()};
-    append(more, level.gaps.power);
-    Numbers& spots = to.numbers[prefix + "level.spots"];
-    for (const Spot& s : level.spots) append(spots, {s.x, s.y, s.major, s.minor, s.angle});
-}
-
-// Of what files of rsc 0.4 lack.
-void get_rest(const Entries& from, const std::string& prefix, Level& level) {
-    if (!from.numbers.contains(prefix + "level.more")) return;
-    const Numbers &more = from.of(prefix + "level.more"), &spots = from.of(prefix + "level.spots");
-    auto& power = level.gaps.power;
-    if (more.size() != 3 + power.size() || spots.size() % 5 != 0) bad_input(kBroken);
-    level.converged = more[0] != 0;
-    level.unique = more[1] != 0;
-    level.gaps.beyond = std::int32_t(more[2]);
-    const Numbers& errors = from.of(prefix + "level.errors");
+        for (const auto c : indices(q.components())) {
+            double value = q.of(level, c);
+            if (entries.row(prefix + q.name + kComponents[c], value) && entries.reading)
+                q.put(level, value, c);
+        }
+    const auto list = [&](const char* name, auto& values) { entries.list(prefix + name, values); };
+    list("asperity", level.asperity);
+    list("yields", level.yields);
+    list("x", level.x);
+    list("y", level.y);
+    list("f", level.f);
+    list("a", level.a);
+    list("u", level.u);
+    list("own_area", level.own_area);
+    LevelPixels& p = level.pixels;
+    entries.row(prefix + "pixels", p.columns, p.x0, p.y0, p.dx, p.dy);
+    list("pixel", p.index);
+    list("pixel_contact", p.contact);
+    list("pixel_pressure", p.pressure);
+    list("pixel_cohesive", p.cohesive);
+    list("pixel_attraction", p.attraction);
+    LevelTractions& t = level.tractions;
+    list("attached_x", t.x);
+    list("attached_y", t.y);
+    list("attached_a", t.a);
+    list("attached_c", t.c);
+    list("attached_pressed", t.pressed);
+    list("attached_pulled", t.pulled);
+    list("gaps", level.gaps.of_bin);
+    auto& [first, second, third, fourth] = level.gaps.power;
+    entries.row(prefix + "more", level.converged, level.unique, level.gaps.beyond, first, second,
+                third, fourth);
+    Numbers errors(level.errors.begin(), level.errors.end());
+    list("errors", errors);
     if (errors.size() != level.errors.size()) bad_input(kBroken);
     std::ranges::copy(errors, level.errors.begin());
-    std::copy(more.begin() + 3, more.end(), power.begin());
-    for (std::size_t k = 0; k < spots.size(); k += 5)
-        level.spots.push_back({spots[k], spots[k + 1], spots[k + 2], spots[k + 3], spots[k + 4]});
+    entries.rows(prefix + "spots", level.spots,
+                 [](Spot& s) { return std::tie(s.x, s.y, s.major, s.minor, s.angle); });
 }
 
-bool tip_moved(const rsc_contact& contact) { return contact.path.indenter().around.finite(); }
-
-Path::State get_state(const Entries& from, const std::string& prefix, const rsc_contact& contact) {
-    Path::State state;
-    const Numbers& tip = from.of(prefix + "tip");
-    const Numbers& accepted = from.of(prefix + "accepted");
-    if (tip.size() != 2 || accepted.size() != 3) bad_input(kBroken);
-    state.x0 = tip[0];
-    state.y0 = tip[1];
-    state.time = accepted[0];
-    state.separation = accepted[1];
-    state.force = accepted[2];
-    state.history = from.of(prefix + "history");
-    const bool whole = from.numbers.contains(prefix + "clock");
-    const Numbers clock =
-        whole ? from.of(prefix + "clock") : Numbers{kNotComputed, double(tip_moved(contact))};
-    if (clock.size() != 2) bad_input(kBroken);
-    state.clock = clock[0];
-    state.moved = clock[1] != 0;
-    if (whole && from.texts.at("rsc") == RSC_VERSION)
-        state.solution = from.texts.at(prefix + "solution");
-    if (!from.numbers.contains(prefix + "level")) return state;
-    const Numbers& known = from.of(prefix + "level");
-    const Numbers& pixels = from.of(prefix + "level.pixels");
-    if (known.size() != 3 || pixels.size() != 5) bad_input(kBroken);
-    Level level;
-    level.separation = known[0];
-    state.level_x0 = known[1];
-    state.level_y0 = known[2];
-    // Entries missing in files of earlier versions keep their defaults.
-    for (const LevelQuantity& q : level_quantities())
-        for (const auto c : indices(q.components()))
-            if (const std::string name = prefix + "level." + q.name + kComponents[c];
-                from.numbers.contains(name))
-                q.put(level, from.one(name), c);
-    visit_arrays(level, [&](const char* name, auto& values) {
-        const auto found = from.numbers.find(prefix + "level." + name);
-        if (found == from.numbers.end()) return;
-        for (const double value : found->second)
-            values.push_back(static_cast<std::decay_t<decltype(values[0])>>(value));
-    });
-    level.pixels.columns = int(pixels[0]);
-    level.pixels.x0 = pixels[1];
-    level.pixels.y0 = pixels[2];
-    level.pixels.dx = pixels[3];
-    level.pixels.dy = pixels[4];
-    const auto& points = contact.on->points;
-    const int places = points ? points->nx * points->ny : int(contact.path.asperities()->size());
+// Throws unless the level is one on `places` asperities or points.
+void require_sound(const Level& level, int places) {
     const auto outside = [&](int k) { return k < 0 || k >= places; };
     const std::size_t n = level.asperity.size();
     const LevelTractions& t = level.tractions;
+    const LevelPixels& p = level.pixels;
+    bool sound = p.attraction.size() == p.cohesive.size() && p.pressure.size() == p.index.size() &&
+                 (p.contact.empty() || p.contact.size() == p.index.size());
     for (const auto* values : {&t.y, &t.a, &t.c, &t.pressed, &t.pulled})
-        if (values->size() != t.x.size()) bad_input(kBroken);
-    if (std::ranges::any_of(level.pixels.cohesive, outside) ||
-        std::ranges::any_of(level.asperity, outside) ||
-        std::ranges::any_of(level.pixels.index, outside) || level.x.size() != n ||
-        level.y.size() != n || level.f.size() != n || level.a.size() != n || level.u.size() != n ||
-        level.pixels.attraction.size() != level.pixels.cohesive.size())
-        bad_input(kBroken);
-    get_rest(from, prefix, level);
-    state.level = std::move(level);
-    return state;
+        sound = sound && values->size() == t.x.size();
+    for (const auto* values : {&level.x, &level.y, &level.f, &level.a, &level.u})
+        sound = sound && values->size() == n;
+    for (const auto* where : {&p.cohesive, &level.asperity, &p.index})
+        sound = sound && std::ranges::none_of(*where, outside);
+    if (!sound) bad_input(kBroken);
 }
 
-void put_path(Entries& to, const std::string& prefix, const FrictionHistory::State& path) {
-    to.numbers[prefix] = {double(path.begun), path.delta, path.xi.x,
-                          path.xi.y,          path.lost,  path.step_lost};
-    Numbers& nodes = to.numbers[prefix + ".nodes"];
-    for (const auto& node : path.nodes)
-        append(nodes,
-               {node.approach, node.load, node.energy, node.deflection.x, node.deflection.y});
+void transfer(Entries& entries, const std::string& prefix, Path::State& state,
+              const rsc_contact& contact) {
+    if (entries.reading) {
+        state = {};
+        state.moved = contact.path.indenter().around.finite();
+        state.clock = kNotComputed;
+        if (entries.has(prefix + "level")) state.level.emplace();
+        const auto solution = entries.texts.find(prefix + "solution");
+        if (solution != entries.texts.end() && entries.texts["rsc"] == RSC_VERSION)
+            state.solution = solution->second;
+    } else {
+        entries.texts[prefix + "solution"] = state.solution;
+    }
+    entries.row(prefix + "tip", state.x0, state.y0);
+    entries.row(prefix + "clock", state.clock, state.moved);
+    entries.row(prefix + "accepted", state.time, state.separation, state.force);
+    entries.list(prefix + "history", state.history);
+    if (!state.level) return;
+    entries.row(prefix + "level", state.level->separation, state.level_x0, state.level_y0);
+    transfer(entries, prefix + "level.", *state.level);
+    const auto& points = contact.on->points;
+    require_sound(*state.level,
+                  points ? points->nx * points->ny : int(contact.path.asperities()->size()));
 }
 
-FrictionHistory::State get_path(const Entries& from, const std::string& prefix) {
-    const Numbers &values = from.of(prefix), &nodes = from.of(prefix + ".nodes");
-    if (values.size() != 6 || nodes.size() % 5 != 0) bad_input(kBroken);
-    FrictionHistory::State path{values[0] != 0, values[1], {values[2], values[3]}, {},
-                                values[4],      values[5]};
-    for (std::size_t k = 0; k < nodes.size(); k += 5)
-        path.nodes.push_back({nodes[k], nodes[k + 1], nodes[k + 2], {nodes[k + 3], nodes[k + 4]}});
-    return path;
+void transfer(Entries& entries, const std::string& prefix, FrictionHistory::State& path) {
+    entries.row(prefix, path.begun, path.delta, path.xi.x, path.xi.y, path.lost, path.step_lost);
+    entries.rows(prefix + ".nodes", path.nodes, [](auto& node) {
+        return std::tie(node.approach, node.load, node.energy, node.deflection.x,
+                        node.deflection.y);
+    });
 }
 
-void put_friction(Entries& to, const std::string& prefix, const rsc_friction::State& state) {
-    put_state(to, prefix + "outer.", state.outer);
-    put_state(to, prefix + "inner.", state.inner);
-    to.numbers[prefix + "known"] = {double(state.known[0]), double(state.known[1])};
-    const ElementFriction::State& e = state.elements;
+void transfer(Entries& entries, const std::string& prefix, ElementFriction::State& e) {
+    if (entries.reading) e.begun = entries.has(prefix + "elements");
     if (!e.begun) return;
-    const SlidingElements::State& t = e.tractions;
-    to.numbers[prefix + "elements"] = {e.separation, e.load, e.energy, e.step_lost,
-                                       e.xi.x,       e.xi.y, t.lost};
-    to.numbers[prefix + "pixels"] = {t.pixels.begin(), t.pixels.end()};
-    to.numbers[prefix + "limit"] = t.limit;
-    to.numbers[prefix + "q"] = t.q;
-    to.numbers[prefix + "u"] = t.u;
-    to.numbers[prefix + "slip"] = t.slip;
+    SlidingElements::State& t = e.tractions;
+    entries.row(prefix + "elements", e.separation, e.load, e.energy, e.step_lost, e.xi.x, e.xi.y,
+                t.lost);
+    entries.list(prefix + "pixels", t.pixels);
+    entries.list(prefix + "limit", t.limit);
+    entries.list(prefix + "q", t.q);
+    entries.list(prefix + "u", t.u);
+    entries.list(prefix + "slip", t.slip);
 }
 
-ElementFriction::State get_elements(const Entries& from, const std::string& prefix) {
-    if (!from.numbers.contains(prefix + "elements")) return {};
-    const Numbers &e = from.of(prefix + "elements"), &pixels = from.of(prefix + "pixels");
-    if (e.size() != 7) bad_input(kBroken);
-    ElementFriction::State state{true, e[0], e[1], e[2], e[3], {e[4], e[5]}, {}};
-    SlidingElements::State& t = state.tractions;
-    for (const double k : pixels) t.pixels.push_back(std::int32_t(k));
-    t.limit = from.of(prefix + "limit");
-    t.q = from.of(prefix + "q");
-    t.u = from.of(prefix + "u");
-    t.slip = from.of(prefix + "slip");
-    t.lost = e[6];
-    return state;
-}
-
-rsc_friction::State get_friction(const Entries& from, const std::string& prefix,
-                                 const std::string& path, const rsc_friction& friction) {
-    rsc_friction::State state = friction.state();
-    state.path = get_path(from, path);
-    if (!from.numbers.contains(prefix + "known")) {  // files of rsc 0.4
-        const Numbers& tip = from.of(prefix.empty() ? "tip" : "committed_tip");
-        if (tip.size() != 2) bad_input(kBroken);
+// `path`: the prefix of the loading path.
+void transfer(Entries& entries, const std::string& prefix, const std::string& path,
+              rsc_friction::State& state, const rsc_friction& friction) {
+    transfer(entries, path, state.path);
+    if (entries.reading && !entries.has(prefix + "known")) {  // files of rsc 0.4
         state.known = {};
         for (Path::State* contact : {&state.outer, &state.inner}) {
-            contact->x0 = tip[0];
-            contact->y0 = tip[1];
+            entries.row(prefix.empty() ? "tip" : "committed_tip", contact->x0, contact->y0);
             contact->solution.clear();
             contact->level.reset();
         }
-        return state;
+        return;
     }
-    state.outer = get_state(from, prefix + "outer.", friction.outer);
-    state.inner = get_state(from, prefix + "inner.", friction.inner);
-    state.elements = get_elements(from, prefix);
-    const Numbers& known = from.of(prefix + "known");
-    if (known.size() != 2) bad_input(kBroken);
-    state.known = {known[0] != 0, known[1] != 0};
-    return state;
+    transfer(entries, prefix + "outer.", state.outer, friction.outer);
+    transfer(entries, prefix + "inner.", state.inner, friction.inner);
+    entries.row(prefix + "known", state.known[0], state.known[1]);
+    transfer(entries, prefix, state.elements);
+}
+
+// Both states of a contact, or of friction.
+void transfer(Entries& entries, rsc_contact& contact, Path::State& state) {
+    transfer(entries, "", state, contact);
+    transfer(entries, "committed.", contact.committed, contact);
+}
+void transfer(Entries& entries, rsc_friction& friction, rsc_friction::State& state) {
+    transfer(entries, "", "path", state, friction);
+    transfer(entries, "committed.", "committed", friction.committed, friction);
 }
 
 }  // namespace
@@ -377,8 +340,8 @@ int32_t rsc_contact_save(rsc_contact* contact, const char* path) {
         require_path(path, 2);
         Entries entries;
         put_making(entries, *contact);
-        put_state(entries, "", contact->path.state());
-        put_state(entries, "committed.", contact->committed);
+        Path::State state = contact->path.state();
+        transfer(entries, *contact, state);
         write(path, kContact, entries);
     });
 }
@@ -388,10 +351,11 @@ int32_t rsc_contact_restore(rsc_contact** contact, const rsc_asperities* asperit
     return constructed(3, contact, "contact", [&] {
         require(asperities, 2, "asperities");
         require_path(path, 3);
-        const Entries entries = read(path, kContact);
+        Entries entries = read(path, kContact);
         auto made = get_making(entries, *asperities);
-        made->restore(get_state(entries, "", *made));
-        made->committed = get_state(entries, "committed.", *made);
+        Path::State state;
+        transfer(entries, *made, state);
+        made->restore(state);
         return made.release();
     });
 }
@@ -403,10 +367,8 @@ int32_t rsc_friction_save(rsc_friction* friction, const char* path) {
         put_making(entries, friction->outer);
         entries.numbers["friction"] = {friction->history.friction().coefficient,
                                        friction->history.friction().ratio};
-        put_friction(entries, "", friction->state());
-        put_friction(entries, "committed.", friction->committed);
-        put_path(entries, "path", friction->history.state());
-        put_path(entries, "committed", friction->committed.path);
+        rsc_friction::State state = friction->state();
+        transfer(entries, *friction, state);
         write(path, kFriction, entries);
     });
 }
@@ -416,13 +378,14 @@ int32_t rsc_friction_restore(rsc_friction** friction, const rsc_asperities* aspe
     return constructed(3, friction, "friction", [&] {
         require(asperities, 2, "asperities");
         require_path(path, 3);
-        const Entries entries = read(path, kFriction);
+        Entries entries = read(path, kFriction);
         const Numbers& with = entries.of("friction");
         if (with.size() != 2) bad_input(kBroken);
         const auto like = get_making(entries, *asperities);
         auto made = std::make_unique<rsc_friction>(*like, like->first, Friction{with[0], with[1]});
-        made->restore(get_friction(entries, "", "path", *made));
-        made->committed = get_friction(entries, "committed.", "committed", *made);
+        rsc_friction::State state = made->state();
+        transfer(entries, *made, state);
+        made->restore(state);
         return made.release();
     });
 }
