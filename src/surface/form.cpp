@@ -9,49 +9,51 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& what) { bad_input("form: " + what); }
 
-// Normal equations of at most six unknowns, summed row by row: short partial sums keep rounding
-// errors small.
-template <int kUnknowns>
-struct Normal {
-    std::array<std::array<double, kUnknowns>, kUnknowns> a{};
-    std::array<double, kUnknowns> b{};
+// Of at most six functions u^i v^j and their coefficients.
+using Terms = std::array<double, 6>;
 
-    void add(const std::array<double, kUnknowns>& basis, double value) {
-        for (const int i : indices(kUnknowns)) {
-            for (int j = i; j < kUnknowns; ++j) a[i][j] += basis[i] * basis[j];
+// Normal equations, summed row by row: short partial sums keep rounding errors small.
+struct Normal {
+    std::array<Terms, 6> a{};
+    Terms b{};
+
+    void add(const Terms& basis, double value, int unknowns) {
+        for (const int i : indices(unknowns)) {
+            for (int j = i; j < unknowns; ++j) a[i][j] += basis[i] * basis[j];
             b[i] += basis[i] * value;
         }
     }
-    void add(const Normal& other) {
-        for (const int i : indices(kUnknowns)) {
-            for (int j = i; j < kUnknowns; ++j) a[i][j] += other.a[i][j];
+    void add(const Normal& other, int unknowns) {
+        for (const int i : indices(unknowns)) {
+            for (int j = i; j < unknowns; ++j) a[i][j] += other.a[i][j];
             b[i] += other.b[i];
         }
     }
     // Solves by Cholesky factorisation. A vanishing pivot means that the points do not determine
-    // the coefficient.
-    std::array<double, kUnknowns> solve(const char* form) const {
+    // the coefficient; that of a function which vanishes along a profile is 0.
+    Terms solve(const char* form, int unknowns, bool profile) const {
         // relative to the diagonal before elimination; maps without missing points have at least
         // 0.1
         constexpr double kSingular = 1e-11;
-        std::array<std::array<double, kUnknowns>, kUnknowns> l{};
-        std::array<double, kUnknowns> x{};
-        for (const int j : indices(kUnknowns))
-            for (int i = j; i < kUnknowns; ++i) {
+        std::array<Terms, 6> l{};
+        Terms x{};
+        for (const int j : indices(unknowns))
+            for (int i = j; i < unknowns; ++i) {
                 double sum = a[j][i];
                 for (const int k : indices(j)) sum -= l[i][k] * l[j][k];
+                if (i == j && profile && a[j][j] == 0) sum = 1;
                 if (i == j && !(sum > kSingular * a[j][j]))
                     refuse("the points of the map do not determine a " + std::string(form) +
                            ": too few of them, or all on one line");
                 l[i][j] = i == j ? std::sqrt(sum) : sum / l[j][j];
             }
-        for (const int i : indices(kUnknowns)) {
+        for (const int i : indices(unknowns)) {
             double sum = b[i];
             for (const int k : indices(i)) sum -= l[i][k] * x[k];
             x[i] = sum / l[i][i];
         }
-        for (int i = kUnknowns; i-- > 0;) {
-            for (int k = i + 1; k < kUnknowns; ++k) x[i] -= l[k][i] * x[k];
+        for (int i = unknowns; i-- > 0;) {
+            for (int k = i + 1; k < unknowns; ++k) x[i] -= l[k][i] * x[k];
             x[i] /= l[i][i];
         }
         return x;
@@ -72,49 +74,42 @@ struct Frame {
     double v(int j) const { return (j - mid_y) * step_v; }
 };
 
-// Fits value(i, j) at all points that are not missing by the functions basis(u, v).
-template <int kUnknowns, class Basis, class Value>
-std::array<double, kUnknowns> fit(const HeightMap& map, const Frame& frame, const char* form,
-                                  Basis basis, Value value) {
-    Normal<kUnknowns> all;
+// Fits value(i, j) at all points that are not missing by the first functions of basis(u, v).
+template <class Basis, class Value>
+Terms fit(const HeightMap& map, const Frame& frame, const char* form, int unknowns, Basis basis,
+          Value value) {
+    Normal all;
     for (const int j : indices(map.ny)) {
-        Normal<kUnknowns> row;
+        Normal row;
         for (const int i : indices(map.nx)) {
             const double z = value(i, j);
-            if (!std::isnan(z)) row.add(basis(frame.u(i), frame.v(j)), z);
+            if (!std::isnan(z)) row.add(basis(frame.u(i), frame.v(j)), z, unknowns);
         }
-        all.add(row);
+        all.add(row, unknowns);
     }
-    return all.solve(form);
+    return all.solve(form, unknowns, map.ny == 1);
 }
 
-// Subtracts `level` and a polynomial of first degree (3 unknowns) or second degree (6), of a
-// profile 2 or 3. The second round removes rounding errors of large forms.
-template <int kUnknowns>
-std::array<double, 6> subtract_polynomial(HeightMap& map, const Frame& frame, const char* form,
-                                          double level) {
-    const auto basis = [row = map.ny == 1](double u, double v) {
-        std::array<double, 6> all{1, u, v, u * u, u * v, v * v};
-        if (row) all = {1, u, u * u};
-        std::array<double, kUnknowns> some{};
-        std::copy_n(all.begin(), kUnknowns, some.begin());
-        return some;
-    };
-    std::array<double, 6> total{};
+// Subtracts `level` and a polynomial of the first terms of 1, u, v, u^2, u v, v^2, whose
+// coefficients are returned. The second round removes rounding errors of large forms.
+Terms subtract_polynomial(HeightMap& map, const Frame& frame, const char* form, double level,
+                          int unknowns) {
+    const auto basis = [](double u, double v) { return Terms{1, u, v, u * u, u * v, v * v}; };
+    Terms total{};
     for (const int round : indices(2)) {
         const double below =
             round == 0 ? level
                        : 0;  // subtracted first, so that a large level does not cause cancellation
-        const auto c = fit<kUnknowns>(map, frame, form, basis,
-                                      [&](int i, int j) { return map(i, j) - below; });
+        const Terms c =
+            fit(map, frame, form, unknowns, basis, [&](int i, int j) { return map(i, j) - below; });
         for (const int j : indices(map.ny))
             for (const int i : indices(map.nx)) {
-                const auto f = basis(frame.u(i), frame.v(j));
+                const Terms f = basis(frame.u(i), frame.v(j));
                 double sum = 0;
-                for (const int k : indices(kUnknowns)) sum += c[k] * f[k];
+                for (const int k : indices(unknowns)) sum += c[k] * f[k];
                 map.row(j)[i] = (map(i, j) - below) - sum;
             }
-        for (const int k : indices(kUnknowns)) total[k] += c[k];
+        for (const int k : indices(unknowns)) total[k] += c[k];
     }
     return total;
 }
@@ -131,7 +126,7 @@ struct Sphere {
         return root > 0 ? -2 * g / (1 + std::sqrt(root)) : std::nan("");
     }
     double operator()(double x, double y) const { return level + above(x, y); }
-    Sphere stepped(const std::array<double, 4>& by, double share) const {
+    Sphere stepped(const Terms& by, double share) const {
         return {level + share * by[0], p + share * by[1], q + share * by[2], bend + share * by[3]};
     }
 };
@@ -144,26 +139,14 @@ double left_by(const Sphere& s, const HeightMap& map, const Frame& f, double lev
     });
 }
 
-// Fits values by four functions; on a profile, where v = 0, by all but the third.
-template <class Basis, class Value>
-std::array<double, 4> fit_sphere_change(const HeightMap& map, const Frame& frame, Basis basis,
-                                        Value value) {
-    if (map.ny > 1) return fit<4>(map, frame, "sphere", basis, value);
-    const auto some = [&](double u, double v) {
-        const std::array<double, 4> all = basis(u, v);
-        return std::array<double, 3>{all[0], all[1], all[3]};
-    };
-    const auto c = fit<3>(map, frame, "arc", some, value);
-    return {c[0], c[1], 0, c[2]};
-}
-
 // Fits a sphere, or to a profile a circle, to the heights above `level`.
 Sphere fit_sphere(const HeightMap& map, const Frame& frame, double level) {
     const double a = frame.scale;
-    const auto start = fit_sphere_change(
-        map, frame,
+    const char* const form = map.ny > 1 ? "sphere" : "arc";
+    const Terms start = fit(
+        map, frame, form, 4,
         [](double u, double v) {
-            return std::array<double, 4>{1, u, v, u * u + v * v};
+            return Terms{1, u, v, u * u + v * v};
         },
         [&](int i, int j) { return map(i, j) - level; });
     Sphere s{start[0], start[1] / a, start[2] / a, -2 * start[3] / (a * a)};
@@ -178,16 +161,15 @@ Sphere fit_sphere(const HeightMap& map, const Frame& frame, double level) {
     for (int step = 0; step < kMostSteps; ++step) {
         if (std::isnan(left)) break;
         // Unknowns are scaled to heights: level, a p, a q, a^2 bend.
-        const auto change = fit_sphere_change(
-            map, frame,
+        const Terms change = fit(
+            map, frame, form, 4,
             [&](double u, double v) {
                 const double w = s.above(u * a, v * a), slope = 1 / (1 + s.bend * w);
-                return std::array<double, 4>{1, u * slope, v * slope,
-                                             -0.5 * slope * (u * u + v * v + w * w / (a * a))};
+                return Terms{1, u * slope, v * slope,
+                             -0.5 * slope * (u * u + v * v + w * w / (a * a))};
             },
             [&](int i, int j) { return map(i, j) - level - s(frame.u(i) * a, frame.v(j) * a); });
-        const std::array<double, 4> by{change[0], change[1] / a, change[2] / a,
-                                       change[3] / (a * a)};
+        const Terms by{change[0], change[1] / a, change[2] / a, change[3] / (a * a)};
         double share = 1;
         Sphere next = s.stepped(by, share);
         double next_left = left_by(next, map, frame, level);
@@ -222,21 +204,10 @@ Form detrend(HeightMap& map, Detrend how) {
             for (const int i : indices(map.nx)) map.row(j)[i] -= level;
     const Frame frame(map);
     const double a = frame.scale;
-    const bool row = map.ny == 1;
-    if (row && (how == Detrend::plane || how == Detrend::quadratic)) {
-        const auto c = how == Detrend::plane
-                           ? subtract_polynomial<2>(map, frame, "line", level)
-                           : subtract_polynomial<3>(map, frame, "parabola", level);
-        form.level += c[0];
-        form.slope_x = c[1] / a;
-        form.zxx = 2 * c[2] / (a * a);
-    } else if (how == Detrend::plane) {
-        const auto c = subtract_polynomial<3>(map, frame, "plane", level);
-        form.level += c[0];
-        form.slope_x = c[1] / a;
-        form.slope_y = c[2] / a;
-    } else if (how == Detrend::quadratic) {
-        const auto c = subtract_polynomial<6>(map, frame, "quadratic", level);
+    const bool row = map.ny == 1, bent = how == Detrend::quadratic;
+    if (how == Detrend::plane || bent) {
+        const char* const names[2][2] = {{"plane", "quadratic"}, {"line", "parabola"}};
+        const Terms c = subtract_polynomial(map, frame, names[row][bent], level, bent ? 6 : 3);
         form.level += c[0];
         form.slope_x = c[1] / a;
         form.slope_y = c[2] / a;
