@@ -4,16 +4,10 @@
 #include "case/namelist.hpp"
 #include "case/units.hpp"
 #include "io/formats.hpp"
-#include "io/input_netcdf.hpp"
 #include "io/inputs.hpp"
 #include "io/map_parts.hpp"
 
 namespace rsc {
-namespace {
-
-using Mention = TextTable::UnitMention;
-
-constexpr char kEndOfRecord = '\3';  // of SMD
 
 HeightMap allocate_profile(const std::string& path, std::size_t points) {
     constexpr std::size_t fewest = 16;
@@ -24,6 +18,12 @@ HeightMap allocate_profile(const std::string& path, std::size_t points) {
     check_memory(path, joined("a profile of ", points, " points"), double(points));
     return allocate_map(points, 1);
 }
+
+namespace {
+
+using Mention = TextTable::UnitMention;
+
+constexpr char kEndOfRecord = '\3';  // of SMD
 
 // Profiles of ISO 5436-2 (.smd): records that end with the byte 3. The first has the axes, as in
 // "CX I 22401 mm 1.0e0 D 2.5e-4": incremental, points, unit, scale, type and step, and "CZ A 22401
@@ -188,39 +188,6 @@ HeightMap read_text_profile(const std::string& path, std::optional<double> L,
     return map;
 }
 
-HeightMap read_netcdf_profile(const std::string& path, std::optional<double> L,
-                              const std::string& length_unit, const std::string& channel,
-                              bool missing, const MapKeys& keys, MapOrigin* origin) {
-    const NetcdfInput file(path);
-    const auto variable = find_heights(file, channel, 1);
-    if (origin) origin->channel = variable.name;
-    const auto x = read_axis(file, variable, 0);
-    if (x && keys.pixel)
-        bad_input(path,
-                  ": the step follows from its coordinate; surface%pixel is for files without it");
-    if (!x && !L && !keys.pixel)
-        bad_input(path, ": ", variable.shape(),
-                  " has no coordinate variable; surface%pixel or surface%L must be given");
-    if (!x && !keys.coordinate_unit.empty())
-        bad_input(path, ": has no coordinate; surface%coordinate_unit does not apply");
-    keys.require_use(path, !file.unit(variable),
-                     !x || !file.unit(*file.find(variable.axes[0])) || keys.pixel);
-    HeightMap map = allocate_profile(path, variable.lengths[0]);
-    file.read(variable, map.data.get(), missing);
-    mark_missing(map, keys.missing_value, origin);
-    const auto factors = unit_factors(file, variable, length_unit, keys, x.has_value(), 0);
-    if (x) {
-        map.x0 = x->first * factors[1];
-        map.dx = x->step * factors[1];
-    } else {
-        map.dx = keys.pixel ? *keys.pixel : *L / map.nx;
-    }
-    check_given_L(path, variable.axes[0], map.nx, map.dx, L);
-    scale_heights(map, factors[0]);
-    if (x && x->reversed) reverse_columns(map);
-    return map;
-}
-
 bool is_smd(const std::string& start) {
     return start.starts_with("ISO 5436") && start.find("PRF") != std::string::npos;
 }
@@ -238,7 +205,7 @@ HeightMap read_profile(const std::string& path, std::optional<double> L,
                   "'; only NetCDF files and texts of several columns have them");
     HeightMap map;
     if (netcdf) {
-        map = read_netcdf_profile(path, L, length_unit, channel, fill, keys, origin);
+        map = read_netcdf_heights(path, L, length_unit, channel, fill, keys, origin, 1);
     } else if (is_smd(start)) {
         map = read_smd(path, length_unit, keys, fill);
         check_given_L(path, "x", map.nx, map.dx, L);

@@ -302,7 +302,12 @@ HeightMap read_text_heights(const std::string& path, std::optional<double> L, bo
     return map;
 }
 
-}  // namespace
+// A uniform axis: value of point 0 (the smallest) and the step; `reversed` if the file counts
+// downwards.
+struct Axis {
+    double first = 0, step = 0;
+    bool reversed = false;
+};
 
 std::optional<Axis> read_axis(const NetcdfInput& file, const NetcdfInput::Variable& heights,
                               std::size_t dimension) {
@@ -339,6 +344,7 @@ std::optional<Axis> read_axis(const NetcdfInput& file, const NetcdfInput::Variab
     return axis;
 }
 
+// The variable `channel`, or `height`, or the only one of `rank` dimensions.
 NetcdfInput::Variable find_heights(const NetcdfInput& file, const std::string& channel,
                                    std::size_t rank) {
     const char* const place = rank == 2 ? "height(y, x)" : "height(x)";
@@ -401,8 +407,6 @@ std::array<double, 3> unit_factors(const NetcdfInput& file, const NetcdfInput::V
     return factor;
 }
 
-namespace {
-
 // Sets points under the variable `mask` to NaN, if there is one of the shape of the heights.
 void apply_mask(const NetcdfInput& file, const NetcdfInput::Variable& heights, HeightMap& map) {
     const auto mask = file.find("mask");
@@ -421,18 +425,23 @@ HeightMap transposed(const HeightMap& map) {
     return turned;
 }
 
+}  // namespace
+
 HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L,
                               const std::string& length_unit, const std::string& channel,
-                              bool missing, const MapKeys& keys, MapOrigin* origin) {
+                              bool missing, const MapKeys& keys, MapOrigin* origin,
+                              std::size_t rank) {
     const NetcdfInput file(path);
-    const auto variable = find_heights(file, channel);
+    const auto variable = find_heights(file, channel, rank);
     if (origin) origin->channel = variable.name;
+    const bool profile = rank == 1;
     // SurfaceTopography and others let y run fastest.
-    const bool turned = variable.axes[0] == "x" && variable.axes[1] == "y";
-    const std::size_t of_x = turned ? 0 : 1, of_y = 1 - of_x;
-    check_grid(path, variable.lengths[of_x], variable.lengths[of_y]);
-    const auto x = read_axis(file, variable, of_x), y = read_axis(file, variable, of_y);
-    if (x.has_value() != y.has_value())
+    const bool turned = !profile && variable.axes[0] == "x" && variable.axes[1] == "y";
+    const std::size_t of_x = turned ? 0 : rank - 1, of_y = 1 - of_x;
+    if (!profile) check_grid(path, variable.lengths[of_x], variable.lengths[of_y]);
+    const auto x = read_axis(file, variable, of_x);
+    const auto y = profile ? std::nullopt : read_axis(file, variable, of_y);
+    if (!profile && x.has_value() != y.has_value())
         bad_input(path, ": ", variable.shape(),
                   " has a coordinate variable for only one dimension; both or none were expected");
     if (!x && !L && !keys.pixel)
@@ -448,30 +457,32 @@ HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L,
         bad_input(path, ": has no coordinates; surface%coordinate_unit does not apply");
     keys.require_use(path, !file.unit(variable),
                      !x || !file.unit(*file.find(variable.axes[of_x])) || keys.pixel);
-    HeightMap map = allocate_map(variable.lengths[1], variable.lengths[0]);
+    HeightMap map = profile ? allocate_profile(path, variable.lengths[0])
+                            : allocate_map(variable.lengths[1], variable.lengths[0]);
     file.read(variable, map.data.get(), missing);
     apply_mask(file, variable, map);
     mark_missing(map, keys.missing_value, origin);
     if (turned) map = transposed(map);
-    if (L) check_L(path, *L);
-    if (!x) {
-        map.dx = map.dy = keys.pixel ? *keys.pixel : *L / map.nx;
-        check_given_L(path, variable.axes[of_x], map.nx, map.dx, L);
-    }
     const auto [factor_z, factor_x, factor_y] =
         unit_factors(file, variable, length_unit, keys, x.has_value(), of_x);
     if (x) {
         map.x0 = x->first * factor_x;
-        map.y0 = y->first * factor_y;
         map.dx = x->step * factor_x;
-        map.dy = y->step * factor_y;
-        check_given_L(path, variable.axes[of_x], map.nx, map.dx, L);
+    } else {
+        map.dx = map.dy = keys.pixel ? *keys.pixel : *L / map.nx;
     }
+    if (y) {
+        map.y0 = y->first * factor_y;
+        map.dy = y->step * factor_y;
+    }
+    check_given_L(path, variable.axes[of_x], map.nx, map.dx, L);
     scale_heights(map, factor_z);
     if (x && x->reversed) reverse_columns(map);
     if (y && y->reversed) reverse_rows(map);
     return map;
 }
+
+namespace {
 
 // The formats of instruments, recognised by a file's first bytes. They include sizes and units.
 struct InstrumentFormat {
@@ -615,7 +626,7 @@ void MapKeys::require_use(const std::string& path, bool heights, bool sides) con
 bool lacks_units(const std::string& path, const std::string& channel) {
     if (is_netcdf(path)) {
         const NetcdfInput file(path);
-        const auto heights = find_heights(file, channel);
+        const auto heights = find_heights(file, channel, 2);
         const auto x = file.find(heights.axes[1]);
         return !file.unit(heights) || !x || !file.unit(*x);
     }
@@ -715,7 +726,8 @@ HeightMap read_heights(const std::string& path, std::optional<double> L,
         bad_input(path, ": has no channel '", channel,
                   "'; only .gwy and NetCDF files have channels");
     if (!netcdf && !instrument) refuse_unknown(path, start);
-    HeightMap map = netcdf ? read_netcdf_heights(path, L, length_unit, channel, fill, keys, origin)
+    HeightMap map = netcdf
+                        ? read_netcdf_heights(path, L, length_unit, channel, fill, keys, origin, 2)
                     : instrument ? instrument->read(path, channel, length_unit, keys,
                                                     origin ? &origin->channel : nullptr)
                                  : read_text_heights(path, L, fill, keys, length_unit, origin);

@@ -34,23 +34,14 @@ UnitFactors text_factors(const std::string& path, const TextTable& table, const 
 // Marks heights that mean "no data", and looks for others that may mean it.
 void mark_missing(HeightMap& map, const std::vector<double>& codes, MapOrigin* origin);
 
-// A uniform axis: value of point 0 (the smallest) and the step; `reversed` if the file counts
-// downwards.
-struct Axis {
-    double first = 0, step = 0;
-    bool reversed = false;
-};
-std::optional<Axis> read_axis(const NetcdfInput& file, const NetcdfInput::Variable& heights,
-                              std::size_t dimension);
+// Throws Error(bad_input) for fewer than 16 points, or too many.
+HeightMap allocate_profile(const std::string& path, std::size_t points);
 
-// The variable `channel`, or `height`, or the only one of `rank` dimensions.
-NetcdfInput::Variable find_heights(const NetcdfInput& file, const std::string& channel,
-                                   std::size_t rank = 2);
-
-// Factors of heights, x and y to length_unit, from units of the file or the keys.
-std::array<double, 3> unit_factors(const NetcdfInput& file, const NetcdfInput::Variable& heights,
-                                   const std::string& length_unit, const MapKeys& keys,
-                                   bool coordinates, std::size_t of_x);
+// As read_heights() for rank 2, and as read_profile() for rank 1.
+HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L,
+                              const std::string& length_unit, const std::string& channel,
+                              bool missing, const MapKeys& keys, MapOrigin* origin,
+                              std::size_t rank);
 
 // A file of no known format is refused; the message says how to convert it.
 void refuse_unknown(const std::string& path, const std::string& start);
