@@ -61,15 +61,9 @@ std::unique_ptr<PixelProducts> make_tree_products(const Substrate& substrate, do
                                                   double inner_error, double full_error,
                                                   bool shifted = true);
 
-// Products for a surface that repeats along one axis (Indenter::period.line(); line_kernel.hpp), on
-// a map of nx x ny pixels, the whole period along that axis, by Fourier transforms: padded across.
-// The half-space must be homogeneous.
-std::unique_ptr<PixelProducts> make_line_products(const Substrate& substrate, const Period& period,
-                                                  int nx, int ny, double dx, double dy,
-                                                  bool shifted = true);
-
-// The deflections under unit pressure on a pixel of such a surface at the offsets [across][along],
-// along at most half a period, each force raised by `raised`/(pi E*) [length/pressure].
+// The deflections under unit pressure on a pixel of a surface that repeats along one axis
+// (Indenter::period.line(); line_kernel.hpp) at the offsets [across][along], along at most half a
+// period, each force raised by `raised`/(pi E*) [length/pressure].
 std::vector<double> line_deflections(const Substrate& substrate, const Period& period, int nx,
                                      int ny, double dx, double dy, double raised);
 
@@ -82,7 +76,8 @@ int padded_size(int width);
 std::unique_ptr<PixelProducts> make_periodic_products(const Substrate& substrate,
                                                       const PointGrid& map);
 
-// Those for an indenter on a free surface, or one that repeats along one axis.
+// Those for an indenter on a free surface, or on one that repeats along one axis: on a map of the
+// whole period along it, by Fourier transforms, padded across, of a homogeneous half-space.
 std::unique_ptr<PixelProducts> make_products(const Substrate& substrate, const Period& period,
                                              const PointGrid& map, double inner_error,
                                              double full_error, bool shifted = true);

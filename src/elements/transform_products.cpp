@@ -8,52 +8,62 @@
 namespace rsc {
 namespace {
 
-// Products on a strip of given width across the axis, padded to at least twice its width.
-class Strip {
-public:
-    // `coefficient(across, along)` for offsets in pixels.
-    template <class Coefficient>
-    Strip(int padded, int period, bool along_x, Coefficient&& coefficient)
-        : nx_(along_x ? period : padded), ny_(along_x ? padded : period) {
-        modes_ = modes_of(nx_, ny_, false, [&](int i, int j) {
-            return along_x ? coefficient(j, i) : coefficient(i, j);
-        });
-    }
+// Pixels row by row, on the plane of the transforms.
+struct PlaneSet {
+    std::vector<Pixel> pixels;
+    Pixel first{0, 0};               // of the plane
+    std::vector<std::size_t> begin;  // of its rows, and the end
+    int width = 0;                   // across a line contact
 
-    // w = K p for pixels row by row, whose first one of row j is begin[j].
+    // Calls visit(pixel, column on the plane) for those in a row of the plane.
+    template <class Visit>
+    void row(int j, Visit&& visit) const {
+        if (at(j) + 1 >= begin.size()) return;
+        for (std::size_t k = begin[at(j)]; k < begin[at(j) + 1]; ++k)
+            visit(k, pixels[k].x - first.x);
+    }
+};
+
+// Products by transforms in both precisions: of a kernel given by its modes, or of a half-space
+// (PeriodicPixels).
+class TransformPlane {
+public:
+    TransformPlane(int nx, int ny, std::vector<double> modes, double aspect = 1,
+                   std::function<double(double)> share = {})
+        : nx_(nx), ny_(ny), modes_(std::move(modes)), aspect_(aspect), share_(std::move(share)) {}
+
+    // w = `factor` K p
     template <class Real>
-    void apply(const std::vector<Pixel>& pixels, Pixel first, const std::vector<std::size_t>& begin,
-               const double* p, double* w) {
-        auto& products = of<Real>();
-        const int rows = static_cast<int>(begin.size()) - 1;
+    void apply(const PlaneSet& from, const PlaneSet& to, const double* p, double factor,
+               double* w) {
         double largest = 0;
-        for (std::size_t k = 0; k < pixels.size(); ++k) largest = std::max(largest, std::abs(p[k]));
+        for (const auto k : indices(from.pixels)) largest = std::max(largest, std::abs(p[k]));
         const double unit = largest > 0 ? largest : 1;  // for single precision
-        products.apply(
+        of<Real>().apply(
             [&](int j, Real* row) {
                 std::fill_n(row, nx_, Real(0));
-                for (std::size_t k = j < rows ? begin[at(j)] : 0,
-                                 end = j < rows ? begin[at(j + 1)] : 0;
-                     k < end; ++k)
-                    row[pixels[k].x - first.x] = static_cast<Real>(p[k] / unit);
+                from.row(j, [&](std::size_t k, int i) { row[i] = Real(p[k] / unit); });
             },
             [&](int j, const Real* row) {
-                if (j >= rows) return;
-                for (std::size_t k = begin[at(j)]; k < begin[at(j + 1)]; ++k)
-                    w[k] = unit * static_cast<double>(row[pixels[k].x - first.x]);
+                to.row(j, [&](std::size_t k, int i) { w[k] = unit * factor * double(row[i]); });
             });
     }
 
 private:
     template <class Real>
     PeriodicPixels<Real>& of() {
-        auto& products = std::get<std::unique_ptr<PeriodicPixels<Real>>>(products_);
-        if (!products) products = std::make_unique<PeriodicPixels<Real>>(nx_, ny_, modes_);
+        using Pixels = PeriodicPixels<Real>;
+        auto& products = std::get<std::unique_ptr<Pixels>>(products_);
+        if (!products)
+            products = modes_.empty() ? std::make_unique<Pixels>(nx_, ny_, 1, aspect_, share_)
+                                      : std::make_unique<Pixels>(nx_, ny_, modes_);
         return *products;
     }
 
     int nx_, ny_;
     std::vector<double> modes_;
+    double aspect_;
+    std::function<double(double)> share_;
     std::tuple<std::unique_ptr<PeriodicPixels<float>>, std::unique_ptr<PeriodicPixels<double>>>
         products_;
 };
@@ -133,49 +143,52 @@ int padded_size(int width) {
 
 namespace {
 
-class LineProducts final : public PixelProducts {
+// On a surface that repeats along one axis, or along both.
+class TransformProducts final : public PixelProducts {
 public:
-    LineProducts(const Substrate& substrate, const Period& period, int nx, int ny, double dx,
-                 double dy, bool shifted)
-        : along_x_(period.along_x()),
-          width_(along_x_ ? ny : nx),
-          period_(along_x_ ? nx : ny),
-          half_(at(period_) / 2 + 1),
-          aspect_(dy / dx),
-          dx_(dx),
-          modulus_(substrate.modulus()) {
+    TransformProducts(const Substrate& substrate, const Period& period, const PointGrid& map,
+                      bool shifted)
+        : flats_(period.finite()),
+          along_x_(std::isfinite(period.x)),
+          along_y_(std::isfinite(period.y)),
+          nx_(map.nx),
+          ny_(map.ny),
+          aspect_(ny_ == 1 && along_y_ ? kEndless : map.dy / map.dx),
+          unit_(map.dx / substrate.modulus()),
+          share_(share_of_modes(substrate, map.dx)) {
+        if (flats_) return;
         if (substrate.smooth())
             throw Error(Failure::bad_input, "line contact is not available for bodies with layers");
-        const double step = along_x_ ? dx : dy, across_step = along_x_ ? dy : dx,
+        const double step = along_x_ ? map.dx : map.dy, across_step = along_x_ ? map.dy : map.dx,
                      L = period.length();
         constexpr double same = 1e-9;
-        if (std::abs(period_ * step - L) > same * L)
+        if (std::abs(along() * step - L) > same * L)
             throw Error(Failure::internal, "the map is not the period of a line contact");
-        const double D = period.reference > 0 ? period.reference : width_ * across_step;
+        const double D = period.reference > 0 ? period.reference : across() * across_step;
         const LineKernel kernel(L, D);
         const auto point = [&](int i, int j) {
             const double x = i * across_step, y = j * step;
             return kernel.images(x, y) + (i > 0 || j > 0 ? 1 / std::hypot(x, y) : kInfinity);
         };
         double least = 0;  // relative to 1/(pi E*)
-        for (std::size_t j = 0; j < half_; ++j)
-            least = std::min(least, point(width_ - 1, static_cast<int>(j)));
+        for (int j = 0; 2 * j <= along(); ++j) least = std::min(least, point(across() - 1, j));
         const double raised = shifted ? -least : 0.0;
         shift_ = substrate.near() * raised;
-        coefficient_ = line_deflections(substrate, period, nx, ny, dx, dy, raised);
+        coefficient_ = line_deflections(substrate, period, nx_, ny_, map.dx, map.dy, raised);
     }
 
     void set_pixels(const std::vector<Pixel>& pixels) override { set_ = arrange(pixels); }
     void apply(const double* p, double* w, Accuracy accuracy, const char*) override {
-        multiply(set_, p, w, accuracy);
+        multiply(set_, set_, p, w, accuracy);
     }
+    // Between two flats the pressures are those on the last set.
     void elsewhere(const double* p, const std::vector<Pixel>& pixels, double* w,
                    const char*) override {
-        multiply(arrange(pixels), p, w, Accuracy::inner);
+        const PlaneSet there = arrange(pixels);
+        multiply(flats_ ? set_ : there, there, p, w, Accuracy::inner);
     }
     PixelStencil inverse(double diagonal) const override {
-        const double aspect = period_ == 1 && !along_x_ ? kEndless : aspect_;
-        return inverse_stencil(aspect, with_diagonal({}, diagonal * modulus_ / dx_));
+        return inverse_stencil(aspect_, with_diagonal(share_, diagonal / unit_));
     }
     double shift() const override { return shift_; }
     double error(Accuracy accuracy) const override {
@@ -184,68 +197,75 @@ public:
     }
 
 private:
-    struct Set {
-        std::vector<Pixel> pixels;
-        Pixel first{0, 0};               // of the plane of the transforms
-        std::vector<std::size_t> begin;  // of its rows, and the end
-        int width = 0;                   // across
-    };
+    // Of the map, along and across the axis of a line contact, in pixels.
+    int along() const { return along_x_ ? nx_ : ny_; }
+    int across() const { return along_x_ ? ny_ : nx_; }
 
-    Set arrange(const std::vector<Pixel>& pixels) const {
-        Set set{pixels, {0, 0}, {}, 0};
+    PlaneSet arrange(const std::vector<Pixel>& pixels) const {
+        PlaneSet set{pixels};
         if (pixels.empty()) return set;
         Pixel low = pixels[0], high = pixels[0];
         for (const Pixel& pixel : pixels) {
             low = {std::min(low.x, pixel.x), std::min(low.y, pixel.y)};
             high = {std::max(high.x, pixel.x), std::max(high.y, pixel.y)};
         }
-        set.first = along_x_ ? Pixel{0, low.y} : Pixel{low.x, 0};
+        set.first = {along_x_ ? 0 : low.x, along_y_ ? 0 : low.y};
         set.width = along_x_ ? high.y - low.y + 1 : high.x - low.x + 1;
-        const int rows = along_x_ ? set.width : period_;
-        set.begin.assign(at(rows) + 1, 0);
+        set.begin.assign(at(along_y_ ? ny_ : set.width) + 1, 0);
         for (const Pixel& pixel : pixels) ++set.begin[at(pixel.y - set.first.y) + 1];
         std::partial_sum(set.begin.begin(), set.begin.end(), set.begin.begin());
         return set;
     }
 
-    void multiply(const Set& set, const double* p, double* w, Accuracy accuracy) {
-        if (set.pixels.empty()) return;
-        ++count_;
-        const int padded = padded_size(set.width);
-        auto& strip = strips_[padded];
-        if (!strip)
-            strip = std::make_unique<Strip>(padded, period_, along_x_, [&](int across, int along) {
-                return across < width_ ? coefficient_[at(across) * half_ + at(along)] : 0.0;
-            });
-        if (accuracy == Accuracy::inner)
-            strip->apply<float>(set.pixels, set.first, set.begin, p, w);
-        else
-            strip->apply<double>(set.pixels, set.first, set.begin, p, w);
+    // The whole period, padded across a line contact.
+    std::unique_ptr<TransformPlane> make_plane(int padded) const {
+        if (flats_)
+            return std::make_unique<TransformPlane>(nx_, ny_, std::vector<double>(), aspect_,
+                                                    share_);
+        const int nx = along_x_ ? nx_ : padded, ny = along_x_ ? padded : ny_;
+        return std::make_unique<TransformPlane>(
+            nx, ny, modes_of(nx, ny, false, [&](int i, int j) {
+                const std::size_t m = at(along_x_ ? j : i), n = at(along_x_ ? i : j);
+                return m < at(across()) ? coefficient_[m * (at(along()) / 2 + 1) + n] : 0.0;
+            }));
     }
 
-    bool along_x_;
-    int width_, period_;  // of the map across and along, in pixels
-    std::size_t half_;
-    double aspect_, dx_, modulus_;
+    void multiply(const PlaneSet& from, const PlaneSet& to, const double* p, double* w,
+                  Accuracy accuracy) {
+        if (to.pixels.empty()) return;
+        ++count_;
+        const int padded = flats_ ? 0 : padded_size(to.width);
+        auto& plane = planes_[padded];
+        if (!plane) plane = make_plane(padded);
+        const double factor = flats_ ? unit_ : 1;
+        if (accuracy == Accuracy::inner)
+            plane->apply<float>(from, to, p, factor, w);
+        else
+            plane->apply<double>(from, to, p, factor, w);
+    }
+
+    bool flats_, along_x_, along_y_;
+    int nx_, ny_;  // of the map
+    double aspect_, unit_;
+    std::function<double(double)> share_;
     double shift_ = 0;
-    std::vector<double> coefficient_;  // [across][along], along at most half a period
-    Set set_;
-    std::map<int, std::unique_ptr<Strip>> strips_;  // by their padded width
+    std::vector<double> coefficient_;  // of a line contact: [across][along], at most half a period
+    PlaneSet set_;
+    std::map<int, std::unique_ptr<TransformPlane>> planes_;  // by their padded width
 };
 
 }  // namespace
 
-std::unique_ptr<PixelProducts> make_line_products(const Substrate& substrate, const Period& period,
-                                                  int nx, int ny, double dx, double dy,
-                                                  bool shifted) {
-    return std::make_unique<LineProducts>(substrate, period, nx, ny, dx, dy, shifted);
+std::unique_ptr<PixelProducts> make_periodic_products(const Substrate& substrate,
+                                                      const PointGrid& map) {
+    const Period period{map.Lx(), map.Ly()};
+    return std::make_unique<TransformProducts>(substrate, period, map, false);
 }
 
 std::unique_ptr<PixelProducts> make_products(const Substrate& substrate, const Period& period,
                                              const PointGrid& map, double inner_error,
                                              double full_error, bool shifted) {
-    if (period.line())
-        return make_line_products(substrate, period, map.nx, map.ny, map.dx, map.dy, shifted);
+    if (period.line()) return std::make_unique<TransformProducts>(substrate, period, map, shifted);
     return make_tree_products(substrate, map.dx, map.dy, inner_error, full_error, shifted);
 }
 
