@@ -2,7 +2,6 @@
 
 #include "interaction/products.hpp"
 #include "physics/physics.hpp"
-#include "run/realize.hpp"
 
 namespace rsc {
 namespace {
@@ -77,16 +76,6 @@ double points_of_elements(const Job& job, double points_per_wave) {
     return job.spectrum ? std::pow(points_per_wave * job.spectrum->L_lambda_s, 2) : 0;
 }
 
-// Share of two flats in contact: under a force 2.1 p/(E* h'), or all; at a separation 0.4 of what
-// is higher.
-double share_in_contact(const Job& job, double level, bool is_force) {
-    const double area = job.domain.Lx * job.domain.Ly;
-    if (any_physics(job.settings, &Physics::reshapes)) return 1;
-    if (!is_force) return std::min(1.0, 0.4 * area_under(job, level) / area);
-    const double slope = job.theory ? job.theory->rms_slope() : job.solver.surface.gentlest_slope;
-    return slope > 0 ? std::erf(1.86 * level / area / (job.indenter.E_star * slope)) : 1.0;
-}
-
 // Number of grid points of elements that are higher than the indenter at Z0.
 double points_under(const Job& job, double Z0, double points) {
     return points * area_under(job, Z0) / (job.domain.Lx * job.domain.Ly);
@@ -131,94 +120,36 @@ ElementSize element_size(const Job& job, double Z0, double points_per_wave) {
 
 namespace {
 
-// The memory of elements, by its parts [byte].
-class ElementBytes {
-public:
-    ElementBytes(const Job& job, double workers)
-        : job_(job),
-          workers_(workers),
-          points_(points_of_elements(job, job.settings.elements.points_per_wave)) {
-        for (const Physics* p : physics_asked(job.settings)) each_ += p->bytes_per_point;
+// Of elements [byte]: the surface with its physics and fields, and the points under the indenter.
+double of_elements(const Job& job) {
+    const Case& settings = job.settings;
+    const bool flats = job.indenter.period.finite();
+    const double per_wave = settings.elements.points_per_wave,
+                 points = points_of_elements(job, per_wave), number = sizeof(double);
+    // Between flats a plane of transforms and the gap, too; where only high points are read, modes
+    // of waves that are `per_wave` points long.
+    double surface = flats ? 28 : reads_high_points(settings) ? number / per_wave : number;
+    double fields = double(settings.output.fields.size()), more = 0;
+    for (const Physics* p : physics_asked(settings)) {
+        surface += p->bytes_per_point;
+        if (p->bytes) more += p->bytes(points);
     }
-
-    // Of a realization: the largest of a level, and what it stores of all levels.
-    double realization() const {
-        const bool flats = job_.indenter.period.finite();
-        double most = 0, stored = 0;
-        for (const double level : job_.levels) {
-            const double contact =
-                flats ? points_ * share_in_contact(job_, level, by_force()) : under(level);
-            most = std::max(most, flats ? between_flats(contact) : pressed(contact));
-            if (flats && job_.settings.run.realizations == 1) stored += kPixel * contact;
-        }
-        constexpr double record = 0.3e6;
-        return most + more() + fields() + stored + record * double(job_.levels.size());
+    for (const AskedCurves& asked : job.observe.curves)
+        for (const PointField& f : asked.physics->fields)
+            if (f.along && has_field(settings, f.name)) fields += double(asked.axis.size) - 1;
+    fields *= double(std::max<std::size_t>(1, settings.output.field_levels.size()));
+    double most = 0, all = 0;
+    for (const double level : job.levels) {
+        const double under = points_under(job, likely_separation(job, level), points);
+        most = std::max(most, under);
+        all += under;
     }
-
-private:
-    static constexpr double kPixel = 24;  // pressures that the result stores
-
-    bool by_force() const { return job_.settings.indentation.control != Control::separation; }
-    double under(double level) const {
-        return points_under(job_, likely_separation(job_, level), points_);
-    }
-
-    double between_flats(double contact) const {
-        // Heights, the plane of the transforms, and the gap.
-        constexpr double planes = 28, touching = 165;
-        return points_ * (planes + each_) + touching * contact;
-    }
-
-    // Of physics, beside each point.
-    double more() const {
-        double sum = 0;
-        for (const Physics* p : physics_asked(job_.settings))
-            if (p->bytes) sum += p->bytes(points_);
-        return sum;
-    }
-
-    double pressed(double under) const {
-        // Of the heights that can touch whole pages are stored, after the modes were: of waves that
-        // are 8 points long, most in a row of 4096 points.
-        constexpr double in_pages = 32 * 8, row = 4096, of_modes = 8, of_heights = 8.4;
-        const bool high = reads_high_points(job_.settings);
-        const double heights =
-            high ? std::min(8 * points_, in_pages * under * std::min(1.0, row / std::sqrt(points_)))
-                 : (of_heights + each_) * points_;
-        const double modes = high ? of_modes / job_.settings.elements.points_per_wave * points_ : 0;
-        // Where most of the surface is under the indenter, its far products take more.
-        constexpr double of_contact = 170, deep = 50, of_table = 1500, most_tables = 90e6;
-        const double tables = std::min(most_tables, of_table * under);
-        const double level = tables + heights + (of_contact + deep * under / points_) * under;
-        // Groups of levels side by side (realize.hpp): a contact for each thread.
-        const double beside = tables + of_contact * under;
-        return std::max(modes, level + (groups_at_once(under) - 1) * beside);
-    }
-
-    double groups_at_once(double under) const {
-        const double groups = std::ceil(double(job_.levels.size()) / kGroup);
-        const bool alone =
-            groups < kFewestGroups || job_.settings.run.realizations > 1 || under > kFewPoints;
-        return alone ? 1 : std::min(workers_, groups);
-    }
-
-    // Of the requested fields; vectors that grow hold up to twice as much.
-    double fields() const {
-        double values = 0;
-        for (const AskedCurves& asked : job_.observe.curves)
-            for (const PointField& f : asked.physics->fields)
-                if (f.along && has_field(job_.settings, f.name))
-                    values += double(asked.axis.size) - 1;
-        values += double(job_.settings.output.fields.size());
-        const std::size_t levels =
-            std::max<std::size_t>(1, job_.settings.output.field_levels.size());
-        return 2 * sizeof(double) * values * points_ * double(levels);
-    }
-
-    const Job& job_;
-    double workers_, points_;
-    double each_ = 0;  // bytes for each point of the surface, of its physics
-};
+    // About half of the points under a flat touch it; the result stores their pressures.
+    constexpr double touching = 80, pressed = 200, stored = 12;
+    // Vectors of fields that grow hold up to twice as much.
+    return points * (surface + 2 * number * fields) + more + (flats ? touching : pressed) * most +
+           (flats && settings.run.realizations == 1 ? stored * all : 0.0);
+}
 
 // Of the stored values of the kernel of coated asperities, at most between all candidates [byte].
 double coated_asperities(const Job& job) {
@@ -256,8 +187,7 @@ double expected_megabytes(const Job& job, double workers) {
     const bool elements = by_elements(job.settings),
                coated = !job.settings.solids.layer_thickness.empty();
     if (!elements && (!coated || job.indenter.period.finite())) return 0;
-    const double realization =
-        elements ? ElementBytes(job, workers).realization() : coated_asperities(job);
+    const double realization = elements ? of_elements(job) : coated_asperities(job);
     const double realizations = double(job.settings.run.realizations),
                  at_once = std::max(1.0, std::min(workers, realizations));
     constexpr double element_program = 40e6, coated_program = 55e6;

@@ -29,10 +29,10 @@ struct Unknowns {
 };
 Unknowns expected_unknowns(const Job& job);
 
-// Memory [MB] of a run with `workers` realizations in parallel at its peak: of elements from the
-// sizes of the surface, the contact and the fields, of coated asperities from the
-// values of the kernel that are kept. 0 for other asperities, which need little. An estimate, not a
-// bound: of 12 cases the peak was 0.5 to 1.1 times as high, that of a roller 1.6 times.
+// Memory [MB] of a run with `workers` realizations in parallel at its peak, estimated for elements
+// from the points of the surface and those under the indenter, for coated asperities from the
+// values of the kernel that are kept. 0 for other asperities, which need little. An estimate, not
+// a bound: of four cases the peak was 0.65 to 1.1 times as high.
 double expected_megabytes(const Job& job, double workers);
 
 }  // namespace rsc
