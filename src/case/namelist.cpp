@@ -316,7 +316,7 @@ private:
     std::string subscript(Assignment& a) {
         const std::string of = "the subscript of '" + a.key + "' ";
         const std::string expected =
-            of + "must be (first), (first:last) or (first:last:step), found '" + excerpt(at_) + "'";
+            of + "must be (first) or (first:last), found '" + excerpt(at_) + "'";
         const std::size_t close = text_.find_first_of(")\n", at_);
         if (close == std::string_view::npos || text_[close] != ')') return expected;
         std::string_view inside = text_.substr(at_ + 1, close - at_ - 1);
@@ -324,25 +324,19 @@ private:
         s.at = position(at_);
         at_ = close + 1;
         if (inside.find(',') != std::string_view::npos) return "'" + a.key + "' has one dimension";
-        std::vector<std::optional<long>> parts;
-        for (bool more = true; more; inside.remove_prefix(more ? inside.find(':') + 1 : 0)) {
-            std::string_view part = inside.substr(0, inside.find(':'));
-            more = part.size() < inside.size();
-            while (!part.empty() && is_blank(part.front())) part.remove_prefix(1);
-            while (!part.empty() && is_blank(part.back())) part.remove_suffix(1);
-            const auto number = to_integer(part);
-            if (!number && !part.empty()) return expected;
-            if (number && std::abs(*number) > kLargestRepeat) return of + "is too large";
-            parts.push_back(number);
-        }
-        if (parts.size() > 3) return of + "has too many colons";
-        if (parts.size() == 1 && !parts[0]) return of + "is empty";
-        if (parts.size() == 3 && parts[2].value_or(0) == 0)
-            return "the step in " + of + "must be an integer other than 0";
-        s.section = parts.size() > 1;
-        s.first = parts[0];
-        if (parts.size() > 1) s.last = parts[1];
-        if (parts.size() > 2) s.step = *parts[2];
+        const std::size_t colon = inside.find(':');
+        s.section = colon != std::string_view::npos;
+        const auto part = [&](std::string_view text, std::optional<long>& number) {
+            while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+            while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+            number = to_integer(text);
+            if (!number && !text.empty()) return expected;
+            return number && std::abs(*number) > kLargestRepeat ? of + "is too large" : "";
+        };
+        std::string problem = part(inside.substr(0, colon), s.first);
+        if (problem.empty() && s.section) problem = part(inside.substr(colon + 1), s.last);
+        if (!problem.empty()) return problem;
+        if (!s.section && !s.first) return of + "is empty";
         a.subscript = s;
         return {};
     }

@@ -34,10 +34,9 @@ struct Item {
     Position at;
 };
 
-// (first), (first:last) or (first:last:step); omitted parts are empty.
+// (first) or (first:last); omitted parts are empty.
 struct Subscript {
     std::optional<long> first, last;
-    long step = 1;
     bool section = false;  // a colon was written
     Position at;
 };

@@ -9,9 +9,9 @@ using namespace namelist;
 
 namespace {
 
-// Elements of an assignment, 1-based: first, first + step, ..., `count` in all.
+// Elements of an assignment, counted from 1: `count` from `first` on.
 struct Walk {
-    long first = 1, step = 1, count = 1;
+    long first = 1, count = 1;
 };
 
 std::string list_choices(const Key& key) {
@@ -47,8 +47,8 @@ std::string resolve(const Assignment& a, long size, Walk& walk, const std::strin
     const auto outside = [&](long i) { return i < 1 || i > size; };
     if (outside(first) || outside(last))
         return "the subscript of " + what + " must be within 1 to " + std::to_string(size);
-    if ((last - first) * s.step < 0) return "the subscript of " + what + " runs the wrong way";
-    walk = {first, s.step, (last - first) / s.step + 1};
+    if (last < first) return "the subscript of " + what + " runs the wrong way";
+    walk = {first, last - first + 1};
     return {};
 }
 
@@ -125,42 +125,8 @@ std::string store(Slot slot, const Key& key, long element, const Item& item, Led
     return {};
 }
 
-// title(3:5) = 'abc': replaces characters of the text, which is extended by blanks if it is
-// shorter.
-std::string store_substring(Slot slot, const Key& key, const Walk& walk, Item item,
-                            Ledger::Entry& entry) {
-    std::string* text = std::get_if<std::string*>(&slot) ? std::get<std::string*>(slot) : nullptr;
-    if (!text) return "a choice has no substring";
-    const auto first = at(walk.first - 1), count = at(walk.count);
-    std::string part;
-    Key whole = key;
-    whole.slot = nullptr;
-    Slot part_slot = &part;
-    item.text = item.text.substr(0, count);
-    if (std::string problem = store(part_slot, whole, 1, item, entry); !problem.empty())
-        return problem;
-    part.resize(count, ' ');
-    if (text->size() < first + count) text->resize(first + count, ' ');
-    *text = trimmed(text->replace(first, count, part));
-    return {};
-}
-
 std::string at_line(const Position& at) {
     return at.line > 0 ? " at line " + std::to_string(at.line) : "";
-}
-
-bool is_one_text(const Key& key) {
-    return key.type == Type::string || (key.type == Type::choice && !key.list);
-}
-
-// The elements that the subscript of an assignment selects. Returns what is wrong with it.
-std::string walk_of(const Key& key, const Assignment& a, Walk& walk) {
-    if (!is_one_text(key))
-        return key.size == 1 ? "this key is no array: it takes no subscript"
-                             : resolve(a, key.size, walk, "this key");
-    if (!a.subscript->section) return "a substring needs a subscript (first:last)";
-    const std::string problem = resolve(a, key.length, walk, "the text");
-    return problem.empty() && walk.step != 1 ? "a substring must not have a step" : problem;
 }
 
 std::string too_many(const Item& item, long elements, bool is_text) {
@@ -193,55 +159,45 @@ void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger,
         faults.emplace_back(at, context, text...);
         entry.faulty = true;
     };
-    const bool is_text = is_one_text(key);
-    Walk walk{1, 1, key.size};
+    const bool is_text = key.type == Type::string || key.type == Type::choice;
+    Walk walk{1, key.size};
     if (a.subscript) {
-        const std::string problem = walk_of(key, a, walk);
+        const std::string problem = key.size == 1 ? "this key is no array: it takes no subscript"
+                                                  : resolve(a, key.size, walk, "this key");
         if (!problem.empty()) return fault(a.subscript->at, problem);
     } else {
         entry.whole = true;
     }
 
-    // Elements are marked as given if a value, not a null, is stored in them; the elements of a
-    // text are its characters.
-    const long elements = is_text ? 1 : walk.count;
+    // Elements are marked as given if a value, not a null, is stored in them.
     const long before = long(entry.given.size());
-    const auto mark = [&](long first, long count, const Position& place) {
+    const auto mark = [&](long given, const Position& place) {
         if (entry.faulty) return;  // one message for a key given several times is enough
         for (const auto& [element, where] : std::span(entry.given).first(at(before)))
-            if (element >= first && element < first + count) {
+            if (element == given) {
                 fault(place, "given twice, first", at_line(where));
                 break;
             }
-        if (is_text) {
-            for (long i = 0; i < count; ++i) entry.given.push_back({first + i, place});
-        } else {
-            entry.given.push_back({first, place});
-        }
+        entry.given.push_back({given, place});
     };
     const Slot slot = key.slot(settings);
     long done = 0;
     for (const Item& item : a.items) {
-        const long left = elements - done;
+        const long left = walk.count - done;
         if (item.null && !item.counted) {
             done += std::min(left, item.repeat);
             continue;
         }
         if (left == 0 || item.repeat > left)
-            return fault(item.at, too_many(item, elements, is_text));
-        if (!item.null) {
-            for (long k = 0; k < item.repeat; ++k) {
-                const long element = walk.first + (done + k) * walk.step;
-                const std::string problem = is_text && a.subscript
-                                                ? store_substring(slot, key, walk, item, entry)
-                                                : store(slot, key, element, item, entry);
-                if (!problem.empty()) {
-                    fault(item.at, problem);
-                    break;
-                }
-                mark(is_text ? walk.first : element,
-                     is_text ? (a.subscript ? walk.count : key.length) : 1, item.at);
+            return fault(item.at, too_many(item, walk.count, is_text));
+        for (long k = 0; !item.null && k < item.repeat; ++k) {
+            const long element = walk.first + done + k;
+            const std::string problem = store(slot, key, element, item, entry);
+            if (!problem.empty()) {
+                fault(item.at, problem);
+                break;
             }
+            mark(element, item.at);
         }
         done += item.repeat;
     }
@@ -378,7 +334,7 @@ std::string get_key(const Case& settings, std::string_view name) {
         const ChoiceSlot word = std::get<ChoiceSlot>(key->word(const_cast<Case&>(settings)));
         return from_string(key->choices.at(at(word.get(word.object))));
     }
-    Walk walk{1, 1, size};
+    Walk walk{1, size};
     if (assignment.subscript) {
         if (key->size == 1) bad_input(key->name, " is no array: it takes no subscript");
         if (std::string problem = resolve(assignment, size, walk, key->name); !problem.empty())
@@ -388,7 +344,7 @@ std::string get_key(const Case& settings, std::string_view name) {
     std::string text;
     bool any = false;
     for (long k = 0; k < walk.count; ++k) {
-        const std::string element = element_text(*key, slot, walk.first + k * walk.step);
+        const std::string element = element_text(*key, slot, walk.first + k);
         text += (k > 0 ? ", " : "") + element;
         any = any || !element.empty();
     }

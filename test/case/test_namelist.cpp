@@ -52,7 +52,6 @@ TEST(test_syntax) {
     CHECK((read("&output pdf_levels = 1.0 /").output.pdf_levels == std::vector<double>{1.0}));
     CHECK((read("&output pdf_levels(2) = 2.25 /").output.pdf_levels ==
            std::vector<double>{2.0, 2.25, 3.0}));
-    CHECK(read("&run title(3:4) = 'cd' title(1:2) = 'ab' /").run.title == "abcd");
     CHECK(read("&surface sigma = , /").surface.sigma == std::nullopt);
     CHECK((read("&output pdf_levels = , , , 9.5 /").output.pdf_levels ==
            std::vector<double>{2.0, 2.5, 3.0, 9.5}));

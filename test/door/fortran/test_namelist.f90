@@ -21,9 +21,9 @@ program test_namelist
   character(*), parameter :: texts(*) = [character(100) :: &
     '&surface sigma = 2d-2 hurst=.75, n = 4096; plateau = T l_lambda_s = 1.28+2 /', &
     'A title, after Smith|! &surface sigma = 7 /|&SURFACE Sigma=3E-3 ! rms|  hurst = 5.e-1 /', &
-    '$solids r = 5, 1*, nu(2) = .3  e(2:1:-1) = 2.1d5, 7.8d4 $end', '&solids E = ,7.5 /', &
+    '$solids r = 5, 1*, nu(2) = .3  e(1:2) = 2.1d5, 7.8d4 $end', '&solids E = ,7.5 /', &
     '&solids R = 1*, 9.5 nu = ,.25 /', '&solids E = 7.5,, nu = 0.3 /', &
-    '&solids nu(2:1:-1) = ,0.25 /', '&solids R(2) = ,| E = 3.5 /', &
+    '&solids nu(1:2) = ,0.25 /', '&solids R(2) = ,| E = 3.5 /', &
     '&solids R = inf, +Infinity E(:)=1,2 /', &
     '&solids E(2:) = 4.9e-3 nu( 1 ) = -0.0 nu(+2:2) = 1.25q-1 /', &
     '&solids R=2*2.5||! a remark|| E = 1.5e3 ,|   2.5d+3 /', &
@@ -36,7 +36,7 @@ program test_namelist
     '&output pdf_levels(1:4) = 4, 3, 2, 1 /', '&output pdf_levels(1:3)=0.1	0.2	0.3/', &
     '&run title = ''it''''s| two lines'' seed=9223372036854775807 /', &
     '&run title="a ""b"" /c/ ! no remark", seed = -12 &end', &
-    '&run title(3:4) = ''cd'' title(1:2) = ''ab'' seed = +007 /', &
+    '&run seed = +007 title = ''ab cd '' /', &
     '&run seed=3 /|&surface n=8192, plateau=.true. /', '&surface plateau=tfoo n=+4096 /', &
     '&surface plateau = .F, n=2048 / &solids nu=2*.25 /', '&surface|| hurst|  =|  ! so|  .5|/']
   integer :: k, at, differ = 0, compared = 0, taken = 0
