@@ -480,7 +480,6 @@ struct BreakSearch {
     double least_x, least_y;  // smallest second differences of a break
     Breaks& breaks;
     std::vector<Breaks::Place> marked;  // spikes and steps
-    std::vector<int> in_column, in_row;
 
     void visit(int i, int j) {
         const Profile x{map, i, j, true}, y{map, i, j, false};
@@ -505,8 +504,6 @@ struct BreakSearch {
         tell(spike ? Breaks::spike : Breaks::step, i, j,
              spike ? -0.5 * (map.ny > 1 ? std::max(bend_x, bend_y) : bend_x)
                    : std::max(jump(x), jump(y)));
-        if (!spike && along_x) ++in_column[static_cast<std::size_t>(i)];
-        if (!spike && along_y) ++in_row[static_cast<std::size_t>(j)];
     }
 
 private:
@@ -551,17 +548,9 @@ Breaks find_breaks(const HeightMap& map, double height_step) {
                        std::max(kBreak * median_bend(map, true), rounding * height_step),
                        std::max(kBreak * median_bend(map, false), rounding * height_step),
                        breaks,
-                       {},
-                       std::vector<int>(static_cast<std::size_t>(nx), 0),
-                       std::vector<int>(static_cast<std::size_t>(ny), 0)};
+                       {}};
     for (const int j : indices(ny))
         for (const int i : indices(nx)) search.visit(i, j);
-    const auto seam = [](const std::vector<int>& counts, int length) {
-        const auto most = std::max_element(counts.begin(), counts.end());
-        return 2 * *most > length ? int(most - counts.begin()) : -1;
-    };
-    if (ny > 1) breaks.seam_column = seam(search.in_column, ny);
-    if (ny > 1) breaks.seam_row = seam(search.in_row, nx);
     if (!search.marked.empty()) breaks.clear = distances_to(search.marked, map);
     return breaks;
 }

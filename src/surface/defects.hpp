@@ -69,9 +69,6 @@ struct Breaks {
     };
     std::array<Found, kKinds> found;  // by Kind
     std::vector<Place> pits, spikes;
-    // Column and row of a step that runs through most of the map, such as a seam between stitched
-    // windows; -1: none.
-    int seam_column = -1, seam_row = -1;
     // Distance to the nearest spike or step in points, at most kMostClear, at j*nx + i; empty:
     // none.
     std::vector<std::uint8_t> clear;

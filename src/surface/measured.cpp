@@ -61,18 +61,10 @@ void tell_breaks(const Measured& m, const char* l, std::vector<std::string>& lin
     if (spikes.points > 0)
         lines.push_back(format("warning: spikes one point wide: %ld, the highest ", spikes.points) +
                         at(spikes) + ": they touch first, but their shape is not resolved");
-    if (steps.points > 0) {
-        std::string line =
+    if (steps.points > 0)
+        lines.push_back(
             format("warning: steps: heights jump at %ld points, most by ", steps.points) +
-            at(steps);
-        if (m.breaks.seam_column >= 0)
-            line += format("; a jump along x = %.6g runs through most of the map, like a seam",
-                           m.x(m.breaks.seam_column));
-        if (m.breaks.seam_row >= 0)
-            line += format("; a jump along y = %.6g runs through most of the map, like a seam",
-                           m.y(m.breaks.seam_row));
-        lines.push_back(line);
-    }
+            at(steps));
 }
 
 }  // namespace
