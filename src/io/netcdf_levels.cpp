@@ -50,12 +50,10 @@ void ResultTable::global_attributes(const std::string& history) {
 }
 
 void ResultTable::axes() {
-    file_.dimension("realization", o_.realizations);
-    file_.dimension("step", o_.steps);
-    add("realization", {"realization"}, "1", "number of the realization",
-        values_of<std::int32_t>(o_.realization, [](std::int64_t k) { return clamped(k); }),
-        comment("realization k of a seed is the same surface in every case"));
-    add("step", {"step"}, "1", "number of the level", one_to(o_.steps));
+    add_axis("realization", "1", "number of the realization",
+             values_of<std::int32_t>(o_.realization, [](std::int64_t k) { return clamped(k); }),
+             comment("realization k of a seed is the same surface in every case"));
+    add_axis("step", "1", "number of the level", one_to(o_.steps));
 
     const Names dims = r_.force_control() ? Names{"realization", "step"} : Names{"step"};
     std::vector<double> separation = of_rows(&LevelValues::separation);
@@ -180,9 +178,8 @@ std::string ResultTable::components(std::size_t number) {
         {"component_of_four", "component of a tensor that is not symmetric", "xx yy xy yx"}};
     const auto& [name, meaning, each] = kinds[number - 2];
     if (!components_.insert(number).second) return name;
-    file_.dimension(name, number);
-    add(name, {name}, "1", meaning, one_to(number),
-        {{"flag_values", one_to(number)}, {"flag_meanings", each}});
+    add_axis(name, "1", meaning, one_to(number),
+             {{"flag_values", one_to(number)}, {"flag_meanings", each}});
     return name;
 }
 

@@ -32,13 +32,11 @@ NetcdfAttributes moments_of(const std::vector<Shown>& distributions,
 
 void ResultTable::maps() {
     const MapGrid& g = o_.options.map;
-    file_.dimension("y", at(g.ny));
-    file_.dimension("x", at(g.nx));
-    add("y", {"y"}, unit(1), "y of the cell centres; the last row may extend beyond the surface",
-        each_of(g.ny, [&](int j) { return g.y(j); }),
-        {{"axis", "Y"}, {"share_of_last_row", g.last_row}});
-    add("x", {"x"}, unit(1), "x of the cell centres", each_of(g.nx, [&](int i) { return g.x(i); }),
-        {{"axis", "X"}});
+    add_axis("y", unit(1), "y of the cell centres; the last row may extend beyond the surface",
+             each_of(g.ny, [&](int j) { return g.y(j); }),
+             {{"axis", "Y"}, {"share_of_last_row", g.last_row}});
+    add_axis("x", unit(1), "x of the cell centres", each_of(g.nx, [&](int i) { return g.x(i); }),
+             {{"axis", "X"}});
     add("map_cell_side", unit(1), "side of the square cells of the map, w", g.side);
     const Names dims{"step", "y", "x"};
     const auto add_map = [&](const char* name, const std::string& units, const char* meaning,
@@ -59,8 +57,8 @@ void ResultTable::maps() {
 
 void ResultTable::radial() {
     if (o_.radii.empty()) return;  // the tip is not above the map
-    file_.dimension("radius", o_.radii.size());
-    add("radius", {"radius"}, unit(1), "distance from the tip", o_.radii,
+    add_axis(
+        "radius", unit(1), "distance from the tip", o_.radii,
         comment(
             "middles of rings of equal width, from the tip to the largest circle on the surface"));
     const Names dims{"step", "radius"};
@@ -94,8 +92,6 @@ void ResultTable::bin_axis(const std::string& name, const std::string& units,
 
 void ResultTable::distributions() {
     if (o_.distributions.empty()) return;
-    file_.dimension("pdf_level", o_.distributions.size());
-    file_.dimension("bin", at(o_.options.pdf.bins));
     std::vector<double> requested, used;
     std::vector<std::int32_t> step;
     for (double level : o_.options.pdf_levels) requested.push_back(level / r_.sigma);
@@ -103,13 +99,13 @@ void ResultTable::distributions() {
         used.push_back(f.sum.separation / double(f.sum.levels) / r_.sigma);
         step.push_back(f.sum.step);
     }
-    add("pdf_level", {"pdf_level"}, "1", "requested Z0/sigma", requested);
+    add_axis("pdf_level", "1", "requested Z0/sigma", requested);
     add("pdf_separation_sigma", {"pdf_level"}, "1",
         "Z0/sigma of the nearest level, to which the distributions belong", used,
         comment("mean over realizations under force control"));
     add("pdf_step", {"pdf_level"}, "1", "number of that level", from_one(step),
         {kFromOne, {"comment", "0: it differs between realizations (force control)"}});
-    add("bin", {"bin"}, "1", "number of the bin", one_to(at(o_.options.pdf.bins)));
+    add_axis("bin", "1", "number of the bin", one_to(at(o_.options.pdf.bins)));
     const PdfBins& bins = o_.options.pdf;
     bin_axis("pressure_mean_bin", unit(-2, 1), "middle of the bins of pressure_mean_pdf",
              bins.mean_pressure_width());
@@ -140,8 +136,7 @@ void ResultTable::distributions() {
     std::vector<double> sums;
     for (const DistributionSums& level : o_.distribution_sums) append(sums, level.numbers);
     const std::size_t numbers = o_.distribution_sums.front().numbers.size();
-    file_.dimension("pdf_sum", numbers);
-    add("pdf_sum", {"pdf_sum"}, "1", "number of the sum", one_to(numbers));
+    add_axis("pdf_sum", "1", "number of the sum", one_to(numbers));
     add("pdf_sums", {"pdf_level", "pdf_sum"}, "1",
         "sums over realizations from which the distributions are computed", sums,
         comment("in powers of the units of length and force; for rsc --merge and --resume, which "
@@ -252,15 +247,11 @@ void ResultTable::contact_mask() {
     if (steps.empty()) return;
     const LevelPixels& grid = r_.pixels[at(steps[0])];
     const int columns = right - left + 1, rows = top - bottom + 1;
-    file_.dimension("mask_step", steps.size());
-    file_.dimension("mask_y", at(rows));
-    file_.dimension("mask_x", at(columns));
-    add("mask_step", {"mask_step"}, "1", "number of the level of contact_mask", from_one(steps),
-        {kFromOne});
-    add("mask_y", {"mask_y"}, unit(1), "y of the pixels of contact_mask",
-        each_of(rows, [&](int j) { return grid.y_of((bottom + j) * grid.columns); }));
-    add("mask_x", {"mask_x"}, unit(1), "x of the pixels of contact_mask",
-        each_of(columns, [&](int i) { return grid.x_of(left + i); }));
+    add_axis("mask_step", "1", "number of the level of contact_mask", from_one(steps), {kFromOne});
+    add_axis("mask_y", unit(1), "y of the pixels of contact_mask",
+             each_of(rows, [&](int j) { return grid.y_of((bottom + j) * grid.columns); }));
+    add_axis("mask_x", unit(1), "x of the pixels of contact_mask",
+             each_of(columns, [&](int i) { return grid.x_of(left + i); }));
     const double most = largest_pressure(r_.settings);
     const auto fill = [=, this](std::size_t k, std::span<signed char> row) {
         std::ranges::fill(row, static_cast<signed char>(0));
@@ -353,12 +344,10 @@ void ResultTable::heights() {
     if (!r_.heights) return;
     const HeightMap& h = *r_.heights;
     // The dimensions x and y are those of the maps; the heights are on a finer grid.
-    file_.dimension("height_y", at(h.ny));
-    file_.dimension("height_x", at(h.nx));
-    add("height_y", {"height_y"}, unit(1), "y of the points of height",
-        each_of(h.ny, [&](int j) { return h.y(j); }));
-    add("height_x", {"height_x"}, unit(1), "x of the points of height",
-        each_of(h.nx, [&](int i) { return h.x(i); }));
+    add_axis("height_y", unit(1), "y of the points of height",
+             each_of(h.ny, [&](int j) { return h.y(j); }));
+    add_axis("height_x", unit(1), "x of the points of height",
+             each_of(h.nx, [&](int i) { return h.x(i); }));
     file_.variable({"height",
                     {"height_y", "height_x"},
                     unit(1),
@@ -389,9 +378,7 @@ void ResultTable::curves() {
         else
             add(axis.name, {axis.name}, unit(1), axis.meaning, axis.values, attributes);
         if (axis.repeats > 0) {
-            file_.dimension(axis.repeats_name, axis.repeats);
-            add(axis.repeats_name, {axis.repeats_name}, "1", axis.repeats_meaning,
-                one_to(axis.repeats));
+            add_axis(axis.repeats_name, "1", axis.repeats_meaning, one_to(axis.repeats));
         }
         if (std::ranges::any_of(asked.physics->curves,
                                 [](const LevelCurve& c) { return c.components > 1; }))
@@ -426,13 +413,9 @@ void ResultTable::curves() {
 void ResultTable::fields() {
     const Fields& f = r_.fields;
     if (f.step.empty()) return;
-    file_.dimension("field_step", f.step.size());
-    file_.dimension("field_y", f.y.size());
-    file_.dimension("field_x", f.x.size());
-    add("field_step", {"field_step"}, "1", "number of the level of the fields", from_one(f.step),
-        {kFromOne});
-    add("field_y", {"field_y"}, unit(1), "y of the points of the fields", f.y);
-    add("field_x", {"field_x"}, unit(1), "x of the points of the fields", f.x);
+    add_axis("field_step", "1", "number of the level of the fields", from_one(f.step), {kFromOne});
+    add_axis("field_y", unit(1), "y of the points of the fields", f.y);
+    add_axis("field_x", unit(1), "x of the points of the fields", f.x);
     const Names dims{"field_step", "field_y", "field_x"};
     if (!f.pressure.empty())
         add_disorder("field_pressure", dims, unit(-2, 1), "pressure", f.pressure);

@@ -169,6 +169,13 @@ private:
         file_.variable({name, std::move(dimensions), units, long_name, std::move(values),
                         std::move(attributes), false});
     }
+    // A dimension and its variable.
+    template <class T>
+    void add_axis(const std::string& name, const std::string& units, const std::string& long_name,
+                  std::vector<T> values, NetcdfAttributes attributes = {}) {
+        file_.dimension(name, values.size());
+        add(name, {name}, units, long_name, std::move(values), std::move(attributes));
+    }
     // A single number.
     template <class Number>
     requires std::is_arithmetic_v<Number>

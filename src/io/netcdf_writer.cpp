@@ -54,16 +54,14 @@ void ResultTable::measured_profile(const MeasuredProfile& p) {
     const auto places = [&](double first, std::size_t n) {
         return each_of(int(n), [&](int i) { return first + i * m.dx; });
     };
-    file_.dimension("trace_x", p.trace.size());
-    add("trace_x", {"trace_x"}, unit(1), "place of the points of the profile as read",
-        places(p.trace_x0, p.trace.size()));
+    add_axis("trace_x", unit(1), "place of the points of the profile as read",
+             places(p.trace_x0, p.trace.size()));
     add_absent("trace", {"trace_x"}, unit(1), "heights of the profile as read", p.trace,
                "missing points are missing");
     add_absent("trace_form", {"trace_x"}, unit(1), "form subtracted from them", p.form,
                "missing at missing points");
-    file_.dimension("profile_x", p.heights.size());
-    add("profile_x", {"profile_x"}, unit(1), "place of the points of the treated profile",
-        places(m.x0, p.heights.size()));
+    add_axis("profile_x", unit(1), "place of the points of the treated profile",
+             places(m.x0, p.heights.size()));
     add("profile", {"profile_x"}, unit(1), "heights of the treated profile", p.heights);
     const ProfileParameters& v = p.parameters;
     const char* const standard =
@@ -82,9 +80,8 @@ void ResultTable::measured_profile(const MeasuredProfile& p) {
     add("cutoff_long", unit(1), "long-wave cutoff of the Gaussian filter; 0: none", p.cutoff_long,
         comment("ISO 16610-21; half of it is lost at each end"));
     const ProfileSpectrum& s = p.spectrum;
-    file_.dimension("profile_wavenumber", s.wavenumber.size());
-    add("profile_wavenumber", {"profile_wavenumber"}, unit(-1),
-        "wavenumber q = 2 pi/lambda along the profile, middle of a band", s.wavenumber);
+    add_axis("profile_wavenumber", unit(-1),
+             "wavenumber q = 2 pi/lambda along the profile, middle of a band", s.wavenumber);
     add("profile_psd", {"profile_wavenumber"}, unit(3),
         "power spectral density C1 of the profile, mean over the band", s.psd,
         comment("after a Hann window, divided by the transmission of the filters; the integral of "
@@ -135,9 +132,8 @@ void ResultTable::measured_form(const Measured& m) {
 }
 
 void ResultTable::measured_heights(const Measured& m) {
-    file_.dimension("map_stage", 3);
-    add("map_stage", {"map_stage"}, "1", "stage of the map", one_to(3),
-        {{"flag_values", one_to(3)}, {"flag_meanings", "as_read without_form filtered"}});
+    add_axis("map_stage", "1", "stage of the map", one_to(3),
+             {{"flag_values", one_to(3)}, {"flag_meanings", "as_read without_form filtered"}});
     const Roughness* const stages[] = {&m.as_read, &m.without_form, &m.filtered};
     const auto of_stages = [&](double Roughness::*member) {
         std::vector<double> all;
@@ -164,10 +160,9 @@ void ResultTable::measured_heights(const Measured& m) {
         m.points_per_wave(),
         comment("below 4 slopes, curvatures and summits are determined by the grid or by noise"));
 
-    file_.dimension("height_bin", m.height_pdf.size());
     const int bins = int(m.height_pdf.size());
-    add("height_bin", {"height_bin"}, unit(1), "middle of the bin of heights about their mean",
-        each_of(bins, [&](int i) { return (i + 0.5 - 0.5 * bins) * m.height_bin; }));
+    add_axis("height_bin", unit(1), "middle of the bin of heights about their mean",
+             each_of(bins, [&](int i) { return (i + 0.5 - 0.5 * bins) * m.height_bin; }));
     add("height_pdf", {"height_bin"}, unit(-1), "probability density of the heights", m.height_pdf);
 }
 
@@ -179,9 +174,9 @@ void ResultTable::measured_spectrum(const Measured& m) {
         attributes.push_back({"twin_exponent", exponent});
         return attributes;
     };
-    file_.dimension("wavenumber", m.spectrum.wavenumber.size());
-    add("wavenumber", {"wavenumber"}, unit(-1),
-        "wavenumber k = 2 pi/lambda, middle of a ring of Fourier modes", m.spectrum.wavenumber);
+    add_axis("wavenumber", unit(-1),
+             "wavenumber k = 2 pi/lambda, middle of a ring of Fourier modes",
+             m.spectrum.wavenumber);
     add("psd", {"wavenumber"}, unit(4), "power spectral density Phi, mean over the ring",
         m.spectrum.psd,
         m.profile ? comment("of the surface that has such profiles, at the stretched wavenumber "
@@ -191,14 +186,10 @@ void ResultTable::measured_spectrum(const Measured& m) {
                              "square height",
                              m.spectrum.exponent));
     if (m.profile) return;
-    file_.dimension("plane_wavenumber", m.spectrum.plane_wavenumber.size());
-    file_.dimension("angle", MeasuredSpectrum::kAngles);
     constexpr int angles = MeasuredSpectrum::kAngles;
-    add("plane_wavenumber", {"plane_wavenumber"}, unit(-1), "wavenumber of psd_plane",
-        m.spectrum.plane_wavenumber);
-    add("angle", {"angle"}, "degree",
-        "direction of the wave vector, from the x axis towards the y axis",
-        each_of(angles, [](int a) { return 180.0 * a / angles; }));
+    add_axis("plane_wavenumber", unit(-1), "wavenumber of psd_plane", m.spectrum.plane_wavenumber);
+    add_axis("angle", "degree", "direction of the wave vector, from the x axis towards the y axis",
+             each_of(angles, [](int a) { return 180.0 * a / angles; }));
     add("psd_plane", {"plane_wavenumber", "angle"}, unit(4), "power spectral density by direction",
         m.spectrum.plane_psd,
         of_twins("the other half plane is the mirror image; surface%twins = 'directional' "
@@ -208,9 +199,8 @@ void ResultTable::measured_spectrum(const Measured& m) {
 
 void ResultTable::measured_quantiles(const Measured& m) {
     const HeightQuantiles& t = m.quantiles;
-    file_.dimension("normal_score", t.score.size());
-    add("normal_score", {"normal_score"}, "1",
-        "normal score: the share erfc(-score/sqrt 2)/2 of the points is lower", t.score);
+    add_axis("normal_score", "1",
+             "normal score: the share erfc(-score/sqrt 2)/2 of the points is lower", t.score);
     add("height_quantile", {"normal_score"}, unit(1), "height about the mean at a normal score",
         t.height,
         comment("a straight line for Gaussian heights; surface%twin_heights = 'measured' generates "
