@@ -1,5 +1,5 @@
-// Contacts saved in files continue bit for bit (what else is kept: test_guest_state); many contacts
-// in one call give the results of single calls, for any number of threads.
+// Files of contacts: what may be replaced and what is refused (how they continue: test_state_walk);
+// many contacts in one call give the results of single calls, for any number of threads.
 #include <sys/resource.h>
 #include <sys/stat.h>
 
@@ -12,23 +12,6 @@ namespace test_api_kept {
 
 AsperitiesHandle make(unsigned seed) {
     return take(random_asperities(400, 0.01, 0.01, 5e-4, 0.4, seed));
-}
-
-// Force, place and stiffness along a path that moves the tip and presses as well.
-std::vector<double> go_on(rsc_contact* contact) {
-    std::vector<double> answers;
-    for (const int k : indices(12)) {
-        double force = 0, separation = 0, stiffness = 0, energy = 0;
-        if (k % 5 == 2) OK(rsc_contact_move_tip(contact, 0.5 + 0.003 * k, 0.5 - 0.002 * k));
-        if (k % 4 == 3)
-            OK(rsc_contact_press(contact, 0.5 + 0.1 * k, &separation));
-        else
-            OK(rsc_contact_indent(contact, 0.004 - 0.0003 * k, &force));
-        OK(rsc_contact_stiffness(contact, &stiffness));
-        OK(rsc_contact_energy(contact, &energy));
-        answers.insert(answers.end(), {force, separation, stiffness, energy});
-    }
-    return answers;
 }
 
 TEST(contacts_in_files) {
@@ -48,7 +31,6 @@ TEST(contacts_in_files) {
     OK(rsc_contact_result(again, &Z0, &same, nullptr, nullptr));
     OK(rsc_contact_energy(again, &E));
     CHECK(Z0 == 0.0045 && same == N && E == W && N > 0);
-    CHECK(go_on(contact) == go_on(again));
     // Other asperities, and a file that does not exist.
     CHECK(rsc_contact_restore(&again, others, file.c_str()) == -2 && says("asperities") && !again);
     CHECK(rsc_contact_restore(&again, asperities, (folder / "nothing").c_str()) == -3 &&

@@ -1,5 +1,5 @@
-// States as values: commit, roll back, copies and saves of contacts of every kind; a sphere with
-// friction that rolls; runs that are watched.
+// What is asked of a state later, after moves, copies and rollbacks (states of every kind:
+// test_state_walk); a sphere with friction that rolls; runs that are watched.
 #include "check.hpp"
 #include "support/library.hpp"
 #include "support/temporary_folder.hpp"
@@ -15,82 +15,6 @@ const std::string kSurface =
 double at(rsc_contact* contact, double time, double Z0) {
     OK(rsc_contact_set_time(contact, time));
     return force_at(contact, Z0);
-}
-
-// What is known of a level: values by name, and the deflection in the contact and beside it.
-std::vector<double> known(rsc_contact* contact, const std::string& memory) {
-    std::vector<double> all(2);
-    const double x[] = {0.5, 0.552}, y[] = {0.5, 0.481};
-    OK(rsc_contact_deflection(contact, 2, x, y, all.data()));
-    for (const char* name :
-         {"force", "contact_area", "energy", "lateral_force_x", "moment_y", "contacts"})
-        all.push_back(value(contact, name));
-    if (!memory.empty()) all.push_back(value(contact, memory.c_str()));
-    return all;
-}
-
-// A contact that has been moved and committed, its copy, and what a file gives back know the same
-// and go on alike; a step that was tried leaves no trace. `memory`: the value that tells of the
-// path.
-void test_kept(const std::string& keys, const std::string& memory,
-               const std::string& surface = kSurface) {
-    const Folder folder;
-    Made made(surface + keys + " / &compare levels='none' /");
-    rsc_contact* const contact = made.contact;
-    const ContactHandle fresh = contact_on(made.asperities, made.c);
-    ContactHandle copy, saved;
-    const std::string path = folder / "save";
-    for (rsc_contact* one : {contact, fresh.get()}) {
-        CHECK(at(one, 0, 0.01) != 0);
-        OK(rsc_contact_move_tip(one, 0.55, 0.98));  // over the border of a surface that repeats
-        at(one, 1, 0.0102);
-    }
-    OK(rsc_contact_commit(contact));
-    OK(rsc_contact_copy(&copy, contact));
-    OK(rsc_contact_save(contact, path.c_str()));
-    OK(rsc_contact_restore(&saved, made.asperities, path.c_str()));
-    const std::vector<double> before = known(contact, memory);
-    const double stiffness = value(contact, "stiffness"), deeper = at(contact, 2, 0.005),
-                 again = at(contact, 2, 0.0102);
-    CHECK(deeper > before[2] &&
-          (memory != "plastic_work" ||
-           (again < before[2] && before.back() > 0)));  // it has yielded further
-    OK(rsc_contact_rollback(contact));
-    for (rsc_contact* one : {contact, copy.get(), saved.get()}) {
-        CHECK(known(one, memory) == before);
-        CHECK_RELATIVE(value(one, "stiffness"), stiffness, 1e-3);
-        at(one, 2, 0.006);
-        OK(rsc_contact_rollback(one));
-        CHECK(known(one, memory) == before);
-    }
-    for (const auto& [time, x, Z0] :
-         {std::tuple{3, 0.55, 0.0104}, {4, 0.55, 0.007}, {5, 0.53, 0.009}}) {
-        OK(rsc_contact_move_tip(fresh, x, 0.98));
-        const double force = at(fresh, time, Z0),
-                     path_value = memory.empty() ? 0 : value(fresh, memory.c_str());
-        for (rsc_contact* one : {contact, copy.get(), saved.get()}) {
-            OK(rsc_contact_move_tip(one, x, 0.98));
-            CHECK_RELATIVE(at(one, time, Z0), force, kTolerance);
-            if (!memory.empty())
-                CHECK_RELATIVE(value(one, memory.c_str()), path_value, 10 * kTolerance);
-        }
-    }
-}
-
-// A copy made between levels, when the tip has moved and time has gone on, knows the stiffness of
-// the last level and continues like the original.
-void test_copied_between_levels(const std::string& keys) {
-    Made made(kSurface + keys + " / &compare levels='none' /");
-    at(made.contact, 0, 0.01);
-    const double stiffness = value(made.contact, "stiffness");
-    at(made.contact, 1, 0.0098);
-    at(made.contact, 1, 0.01);
-    OK(rsc_contact_move_tip(made.contact, 0.53, 0.47));
-    OK(rsc_contact_set_time(made.contact, 10));
-    ContactHandle copy;
-    OK(rsc_contact_copy(&copy, made.contact));
-    if (keys.empty()) CHECK_RELATIVE(value(copy, "stiffness"), stiffness, 1e-6);
-    CHECK_RELATIVE(force_at(copy, 0.009), force_at(made.contact, 0.009), kTolerance);
 }
 
 // The lateral force and the moment of a level are the same, to the last bit, whenever they are
@@ -210,11 +134,10 @@ TEST(test_time) {
     CHECK(rsc_contact_create_from_case(&refused, made.asperities, made.c) == -3 && !refused);
 }
 
-// The force of the slide is bounded by mu N, what its energy falls by is lost, none is won; a move
-// back to where the tip is does nothing, one to other asperities leaves nothing of the slide.
-TEST(test_rolling) {
-    Made made(kSurface + "/");
-    FrictionHandle friction;
+// The force of the slide is bounded by mu N; of asperities, what its energy falls by is lost, none
+// is won; of elements, pixels that join the contact hold the deflection they meet, those that leave
+// lose their tractions. A move back to where the tip is does nothing.
+FrictionState rolled(const Made& made, FrictionHandle& friction, bool elements) {
     constexpr double mu = 0.4, Z0 = 0.012;
     OK(rsc_friction_create(&friction, made.contact, mu, 0.8));
     OK(rsc_friction_update(friction, Z0, 0, 0, nullptr, nullptr, nullptr, nullptr));
@@ -227,10 +150,12 @@ TEST(test_rolling) {
     for (int k = 1; k <= 20; ++k) {
         OK(rsc_friction_move_tip(friction, 0.5 + 0.001 * k, 0.5));
         const FrictionState now = state(friction);
-        CHECK(std::hypot(now.Qx, now.Qy) <= mu * now.N * (1 + 1e-12));
-        CHECK(now.tangential <= last.tangential * (1 + 1e-12) && now.lost >= last.lost);
-        CHECK_CLOSE(now.tangential + now.lost, last.tangential + last.lost,
-                    1e-12 * slid.tangential);
+        CHECK(std::hypot(now.Qx, now.Qy) <= mu * now.N * (1 + 1e-12) && now.lost >= last.lost);
+        if (!elements) {
+            CHECK(now.tangential <= last.tangential * (1 + 1e-12));
+            CHECK_CLOSE(now.tangential + now.lost, last.tangential + last.lost,
+                        1e-12 * slid.tangential);
+        }
         last = now;
     }
     CHECK(last.Qx > 0 && last.Qx < slid.Qx);
@@ -238,46 +163,27 @@ TEST(test_rolling) {
     CHECK(rsc_contact_copy(&there, made.contact) == RSC_SUCCESS &&
           rsc_contact_move_tip(there, 0.52, 0.5) == RSC_SUCCESS);
     CHECK_RELATIVE(last.N, force_at(there, Z0), kTolerance);
-    CHECK(rsc_friction_move_tip(friction, 0.9, 0.1) == RSC_SUCCESS && state(friction).Qx == 0 &&
-          state(friction).tangential == 0);
-    OK(rsc_friction_rollback(friction));
-    double N = 0, Qx = 0;
-    OK(rsc_friction_update(friction, Z0, 2e-4, 1e-4, &N, &Qx, nullptr, nullptr));
-    CHECK_RELATIVE(N, slid.N, kTolerance);
-    CHECK_RELATIVE(Qx, slid.Qx, kTolerance);
-    OK(rsc_friction_update(friction, 0.9 * Z0, 2e-4, 1e-4, &N, nullptr, nullptr,
-                           nullptr));  // the tip is back, too
-    CHECK_RELATIVE(N, force_at(made.contact, 0.9 * Z0), kTolerance);
+    return slid;
 }
 
-// Of elements, pixels that join the contact hold the deflection they meet, those that leave lose
-// their tractions.
-TEST(test_rolling_of_elements) {
-    Made made(kSurface + "/ &solver model='elements' /");
-    FrictionHandle friction;
-    constexpr double mu = 0.4, Z0 = 0.012;
-    OK(rsc_friction_create(&friction, made.contact, mu, 0.8));
-    OK(rsc_friction_update(friction, Z0, 0, 0, nullptr, nullptr, nullptr, nullptr));
-    OK(rsc_friction_update(friction, Z0, 2e-4, 1e-4, nullptr, nullptr, nullptr, nullptr));
-    OK(rsc_friction_commit(friction));
-    const FrictionState slid = state(friction);
-    FrictionState last = slid;
-    for (int k = 1; k <= 20; ++k) {
-        OK(rsc_friction_move_tip(friction, 0.5 + 0.001 * k, 0.5));
-        const FrictionState now = state(friction);
-        CHECK(std::hypot(now.Qx, now.Qy) <= mu * now.N * (1 + 1e-12) && now.lost >= last.lost);
-        last = now;
+// A move to other asperities leaves nothing of the slide; a rollback brings the tip back, too.
+TEST(test_rolling) {
+    constexpr double Z0 = 0.012;
+    for (const bool elements : {false, true}) {
+        Made made(kSurface + (elements ? "/ &solver model='elements' /" : "/"));
+        FrictionHandle friction;
+        const FrictionState slid = rolled(made, friction, elements);
+        if (!elements)
+            CHECK(rsc_friction_move_tip(friction, 0.9, 0.1) == RSC_SUCCESS &&
+                  state(friction).Qx == 0 && state(friction).tangential == 0);
+        OK(rsc_friction_rollback(friction));
+        double N = 0, Qx = 0;
+        OK(rsc_friction_update(friction, Z0, 2e-4, 1e-4, &N, &Qx, nullptr, nullptr));
+        CHECK_RELATIVE(N, slid.N, kTolerance);
+        CHECK_RELATIVE(Qx, slid.Qx, kTolerance);
+        OK(rsc_friction_update(friction, 0.9 * Z0, 2e-4, 1e-4, &N, nullptr, nullptr, nullptr));
+        CHECK_RELATIVE(N, force_at(made.contact, 0.9 * Z0), kTolerance);
     }
-    CHECK(last.Qx > 0 && last.Qx < slid.Qx);
-    ContactHandle there;
-    CHECK(rsc_contact_copy(&there, made.contact) == RSC_SUCCESS &&
-          rsc_contact_move_tip(there, 0.52, 0.5) == RSC_SUCCESS);
-    CHECK_RELATIVE(last.N, force_at(there, Z0), kTolerance);
-    OK(rsc_friction_rollback(friction));
-    double N = 0, Qx = 0;
-    OK(rsc_friction_update(friction, Z0, 2e-4, 1e-4, &N, &Qx, nullptr, nullptr));
-    CHECK_RELATIVE(N, slid.N, kTolerance);
-    CHECK_RELATIVE(Qx, slid.Qx, kTolerance);
 }
 
 struct Watched {
@@ -344,25 +250,6 @@ void test_steep(const std::string& memory) {
 }
 
 TEST(guest_state) {
-    const std::string elements = " / &elements points_per_wave=4 / &solver model='elements'",
-                      layer = "layer_thickness=0.05 layer_E=4e5 layer_nu=0.2",
-                      relaxing = "relaxation_share=0.4,0.3 relaxation_time=1,20",
-                      tight = " / &solver tolerance=1e-9";
-    test_kept("", "");
-    test_kept(layer, "");
-    for (const std::string& model : {std::string(), elements}) {
-        test_kept("hardness=1500" + model, "plastic_work");
-        test_kept(relaxing + (model.empty() ? tight : model + " tolerance=1e-9"), "energy_lost");
-    }
-    for (const std::string& range :
-         {std::string(), std::string("adhesion_range=2e-4 / &asperities law='hertz'"),
-          "adhesion_range=0.02" + elements})
-        test_kept("adhesion=0.5 " + range, "energy_lost");
-    // Attached summits of z - shape, at each place others: their numbers stay under a flat ball.
-    test_kept("adhesion=0.05 / &asperities law='elliptic'", "energy_lost",
-              kSurface.substr(0, kSurface.rfind("2.5")) + "50 ");
-    test_copied_between_levels("");
-    test_copied_between_levels(relaxing + tight);
     for (const char* memory :
          {"", "hardness=100", "relaxation_share=0.4 relaxation_time=1", "adhesion=1e-4"})
         test_steep(memory);
