@@ -7,6 +7,12 @@
 namespace rsc {
 namespace {
 
+// Levels of elements that do not depend on each other are solved in groups of this many, if there
+// are at least kFewestGroups of them; groups whose levels have at most kFewPoints candidates side
+// by side, by a contact for each thread.
+constexpr std::size_t kGroup = 8, kFewestGroups = 4;
+constexpr std::int32_t kFewPoints = 200000;
+
 // The levels whose fields are requested, in ascending order: the nearest to each of
 // output%field_levels.
 std::vector<std::int32_t> steps_of_fields(const Job& job) {
