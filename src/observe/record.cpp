@@ -131,22 +131,19 @@ void Accumulators::add(const RealizationRecord& record) {
         throw Error(Failure::internal, "realization " + std::to_string(record.realization) +
                                            " has " + std::to_string(record.levels.size()) +
                                            " levels, the others " + std::to_string(steps));
-    if (!realization.empty() && record.realization <= realization.back())
-        throw Error(Failure::internal, "realization " + std::to_string(record.realization) +
-                                           " added after realization " +
-                                           std::to_string(realization.back()));
-    realization.push_back(record.realization);
-    surface.push_back(record.surface);
-    rows.insert(rows.end(), record.levels.begin(), record.levels.end());
-    rsc::append(curves, record.curves);
+    Accumulators one(options, steps);
+    one.realization = {record.realization};
+    one.surface = {record.surface};
+    one.rows = record.levels;
+    one.curves = record.curves;
     for (std::size_t s = 0; s < steps; ++s) {
         const MapLevel& map = record.maps[s];
-        std::vector<CellSums> terms;
         for (const auto k : indices(map.cell))
-            terms.push_back({map.cell[k], map.area[k], map.force[k]});
-        add_cells(maps[s], std::move(terms));
+            one.maps[s].push_back({map.cell[k], map.area[k], map.force[k]});
     }
-    for (const auto d : indices(distributions)) rsc::add(distributions[d], record.distributions[d]);
+    for (const auto d : indices(distributions))
+        rsc::add(one.distributions[d], record.distributions[d]);
+    append(one);
 }
 
 void Accumulators::append(const Accumulators& later) {
