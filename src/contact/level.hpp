@@ -173,7 +173,8 @@ struct LevelPixels {
     double x0 = 0, y0 = 0;              // centre of the first pixel of the map [length]
     double dx = 0, dy = 0;              // sides of a pixel [length]
     std::vector<std::int32_t> index;    // row * columns + column, 0-based
-    std::vector<std::int32_t> contact;  // index of the contact to which it belongs
+    // index of the contact to which it belongs; empty: not known, as for loads that last
+    std::vector<std::int32_t> contact;
     std::vector<double> pressure;       // [force/length^2]
     // Adhesion: pixels that are attracted without contact, row by row, and their negative pressure.
     std::vector<std::int32_t> cohesive;
@@ -186,7 +187,7 @@ struct LevelPixels {
     template <class Visit>
     void each(Visit&& visit) const {
         for (const auto k : indices(index))
-            visit(index[k], pressure[k], k < contact.size() ? contact[k] : 0);
+            visit(index[k], pressure[k], contact.empty() ? 0 : contact[k]);
         for (const auto k : indices(cohesive)) visit(cohesive[k], attraction[k], -1);
     }
     bool empty() const { return index.empty() && cohesive.empty(); }

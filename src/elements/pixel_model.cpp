@@ -114,6 +114,7 @@ Remains PixelModel::remains(const Level& level) const {
     for (const Pixel& pixel : loaded_pixels())
         lasting.pixels.index.push_back(pixel.y * frame.nx + pixel.x);
     lasting.pixels.pressure = loads_->lasting();
+    lasting.pixels.contact.clear();
     return {.lasting_loads = std::move(lasting)};
 }
 

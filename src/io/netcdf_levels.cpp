@@ -79,11 +79,10 @@ NetcdfAttributes ResultTable::with_error(const LevelQuantity& q) const {
 void ResultTable::error_of(const LevelQuantity& q, const Names& shape) {
     if (q.error_member || with_error(q).empty()) return;
     std::vector<double> errors;
-    for (const LevelValues& level : o_.rows)
-        for (const auto c : indices(q.components())) errors.push_back(q.error(level, c));
-    // Later levels whose smallest value is the same have the same error.
-    for (std::size_t k = 0; q.least && k < errors.size(); ++k)
-        if (k % o_.steps > 0 && std::isnan(errors[k])) errors[k] = errors[k - 1];
+    for (const auto k : indices(o_.realizations))
+        for (const auto s : indices(o_.steps))
+            for (const auto c : indices(q.components()))
+                errors.push_back(q.least ? error_of_least(q, k, s + 1) : q.error(o_.row(k, s), c));
     add_absent(q.error_name(), shape, "1", std::string("expected relative error of ") + q.name,
                errors, "not exceeded in nine of ten cases; follows from border_share");
 }
@@ -135,6 +134,14 @@ void ResultTable::levels() {
         if (q.least) least_of(q);
 }
 
+// The expected error of the smallest value of a quantity over the first levels of a realization.
+double ResultTable::error_of_least(const LevelQuantity& q, std::size_t realization,
+                                   std::size_t levels) const {
+    const std::span first(&o_.row(realization, 0), levels);
+    const bool negative = q.of(first.back()) < 0;
+    return negative ? error_of_least_force(first) : kNotComputed;
+}
+
 // The smallest value of a quantity over the levels of a realization.
 void ResultTable::least_of(const LevelQuantity& q) {
     if (!computed(of_rows([&](const LevelValues& l) { return q.of(l); }))) return;
@@ -148,10 +155,7 @@ void ResultTable::least_of(const LevelQuantity& q) {
         if (without_state) least[k] = kNotComputed;
     }
     std::vector<double> errors;
-    for (const auto k : indices(least)) {
-        const double error = error_of_least_force({&o_.row(k, 0), o_.steps});
-        errors.push_back(least[k] < 0 ? error : kNotComputed);
-    }
+    for (const auto k : indices(least)) errors.push_back(error_of_least(q, k, o_.steps));
     const std::string error_name = std::string(q.least) + "_error_expected";
     NetcdfAttributes error;
     if (computed(errors)) error = {{"ancillary_variables", error_name}};

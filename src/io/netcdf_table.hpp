@@ -104,6 +104,8 @@ private:
     void axes();
     void levels();
     void least_of(const LevelQuantity& q);
+    double error_of_least(const LevelQuantity& q, std::size_t realization,
+                          std::size_t levels) const;
     static bool computed(const std::vector<double>& values);
     NetcdfAttributes with_error(const LevelQuantity& q) const;
     void error_of(const LevelQuantity& q, const Names& shape);

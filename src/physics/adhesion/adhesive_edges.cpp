@@ -13,11 +13,12 @@ constexpr double kRelaxed = 2, kMomentum = 0.5;
 constexpr double kLeast = 0.3;  // of a share that remains after a round
 // Error of gaps of touching pixels relative to u0 and to the change of the shares.
 constexpr double kEarly = 0.3, kFinal = 0.1;
+// The same change for the first round, before which pressures are those of another separation.
+constexpr double kFirst = 0.01;
 // Residual relative to that of the last product in full accuracy, at which another one is due.
 constexpr double kDrift = 0.03;
-constexpr int kMostSteps = 60;            // of conjugate gradients in a round
-constexpr double kPenetration = 1e-3;     // relative to u0: of points apart from other contacts
-constexpr double kStiffnessError = 1e-9;  // of the residual
+constexpr int kMostSteps = 60;         // of conjugate gradients in a round
+constexpr double kPenetration = 1e-3;  // relative to u0: of points apart from other contacts
 constexpr int kMostForStiffness = 500;
 
 double product(const std::vector<double>& a, const std::vector<double>& b) {
@@ -193,7 +194,7 @@ AdhesiveEdges::Outcome AdhesiveEdges::balance(const std::vector<double>& clearan
                                               double tolerance) {
     Outcome outcome;
     for (const auto k : indices(pixels_)) overlap_[k] = clearance[at(map_.place(pixels_[k]))] - Z;
-    double worst = 1, at_exact = 0;
+    double worst = kFirst, at_exact = 0;
     bool exact = true;
     for (; outcome.rounds < kMost; ++outcome.rounds) {
         stopping_point();
@@ -231,7 +232,7 @@ AdhesiveEdges::Outcome AdhesiveEdges::balance(const std::vector<double>& clearan
     return outcome;
 }
 
-double AdhesiveEdges::stiffness() {
+double AdhesiveEdges::stiffness(double error) {
     const std::vector<double> p = p_, u = u_;
     std::ranges::fill(p_, 0.0);
     std::ranges::fill(u_, -1.0);
@@ -239,7 +240,7 @@ double AdhesiveEdges::stiffness() {
         double most = 0;
         for (const auto k : indices(u_))
             if (touches(k)) most = std::max(most, std::abs(u_[k]));
-        return most <= kStiffnessError || step >= kMostForStiffness;
+        return most <= error || step >= kMostForStiffness;
     });
     const double sum = std::accumulate(p_.begin(), p_.end(), 0.0);
     p_ = p;

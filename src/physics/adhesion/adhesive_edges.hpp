@@ -44,8 +44,9 @@ public:
     const std::vector<double>& share() const { return share_; }
     const std::vector<double>& pressure() const { return p_; }
     const std::vector<double>& gap() const { return u_; }
-    // Sum of the pressures by which touching pixels sink by 1, the other shares being fixed.
-    double stiffness();
+    // Sum of the pressures by which touching pixels sink by 1 to this error of each, the other
+    // shares being fixed.
+    double stiffness(double error);
 
 private:
     bool touches(std::size_t k) const { return share_[k] == 1; }

@@ -17,6 +17,11 @@ constexpr double kOfLayer = 0.5;
 // Without a range: shortest part of the way to a level, relative to it, and the error of the work
 // of a part.
 constexpr double kShortestOfEdges = 1.0 / 16, kWorkError = 0.01;
+// By how much the force may fall below the smallest one of the states that are computed, relative
+// to it, before a jump or where its course is smooth. Parts of the way are not made shorter than kShortest for that.
+constexpr double kLeastForceError = 0.01, kShortest = 1.0 / 1024;
+// Errors of the residual of a stiffness: of that which is returned, and for this fall of the force.
+constexpr double kStiffnessError = 1e-9, kFallError = 1e-3;
 // With a range: parts into which the way is divided at most, to see what it loses.
 constexpr int kMostParts = 10;
 constexpr double kOfJump = 0.1;       // of w times the area that changes, is lost in a jump
@@ -36,6 +41,15 @@ constexpr double kPenetration = 1e-3;  // relative to z0: of points apart from c
 // Longest piece of a way of the tip: change of the clearances of attracting points relative to z0,
 // and number of pixel sides.
 constexpr double kPiece = 0.25, kPieceSides = 0.25;
+
+double below(double least_force) { return least_force - kLeastForceError * std::abs(least_force); }
+
+// Smallest value between the outer ones of three at equal distances.
+double least_of_parabola(double first, double middle, double last) {
+    const double bend = first - 2 * middle + last, slope = 0.5 * (last - first);
+    const bool inside = std::abs(slope) < bend;
+    return inside ? middle - 0.5 * slope * slope / bend : std::min({first, middle, last});
+}
 
 // Integral of the positive part of a linear function over a triangle of unit area, from its values
 // at the corners, and the derivatives with respect to these.
@@ -376,7 +390,7 @@ bool AdhesivePixels::press(double Z, double tolerance, Level& level) {
 
 // Pressures and gaps at Z under the present attraction. Returns false if this does not converge.
 bool AdhesivePixels::load(double Z, double tolerance, Level& level) {
-    for (;;) {
+    for (int round = 0; round < kMost; ++round) {
         std::vector<double> p(reach.size());
         for (const auto k : indices(reach)) p[k] = s0 * share[at(reach[k])];
         lift = deflections(p, tolerance);
@@ -398,6 +412,7 @@ bool AdhesivePixels::load(double Z, double tolerance, Level& level) {
             gap[at(reach[k])] = p[k] - (lift[k] + clearance[at(reach[k])] - Z);
         return true;
     }
+    return false;
 }
 
 // The energy of a state that has just been found, and its gaps at the tracked points, by products
@@ -534,7 +549,7 @@ double AdhesivePixels::stiffness() {
     if (edges) {
         if (sum_of(share) == 0) return 0;
         select_edges(false);
-        return -pixel * edges->stiffness();
+        return -pixel * edges->stiffness(kStiffnessError);
     }
     if (std::ranges::none_of(q, [](double value) { return value > 0; })) return 0;
     return flats ? -heights.Lx() * heights.Ly() * flats->stiffness(false)
@@ -555,6 +570,7 @@ Level AdhesivePixels::step(double Z, const Past* start, double tolerance) {
     now.separation = Z;
     now.attracting.clear();
     now.share.clear();
+    now.pressed.clear();
     std::vector<Pixel> touching;
     std::vector<double> pressures;
     double twice = 0, cohesive = 0;
@@ -564,6 +580,7 @@ Level AdhesivePixels::step(double Z, const Past* start, double tolerance) {
         if (const std::size_t i = at(sorted[k]); share[i] > 0) {
             now.attracting.push_back(sorted[k]);
             now.share.push_back(share[i]);
+            now.pressed.push_back(q[i]);
         }
     for (std::size_t k = 0; k < reach.size() && converged; ++k) {
         const std::size_t i = at(reach[k]);
@@ -710,11 +727,27 @@ Level AdhesivePixels::follow_range(double Z) {
     return level;
 }
 
+// Whether the force may have been smaller on the way from the accepted state to this one. Bodies
+// that separate let go of points, which raises the force: it is not below that of the accepted
+// state if all points are held.
+bool AdhesivePixels::may_pull_harder() {
+    const double apart = now.separation - accepted.separation;
+    if (!(apart > 0)) return false;
+    const std::vector<std::int32_t> within = reach;
+    restore(accepted);
+    select_edges(false);
+    const double fall = pixel * edges->stiffness(kFallError) * apart;
+    restore(now);
+    reach = within;
+    return accepted.force - fall < below(now.least_force);
+}
+
 // Without a range: divides the step from the accepted state to this level, if its work by the
 // trapezoidal rule is more than the change of the energy, until it is not, or is so short that it
-// is a jump. Where Simpson's rule shows that it loses none, the state at its end is the right one.
-// If a part does not converge, `level` is that of the part.
-void AdhesivePixels::divide_edges(Level& level, double shortest) {
+// is a jump, before which no smaller force is possible. Where Simpson's rule shows that it loses
+// none, the state at its end is the right one, unless the forces have a minimum in it that is not
+// known yet. If a part does not converge, `level` is that of the part.
+void AdhesivePixels::divide_edges(Level& level, double way) {
     const auto parts = [&](auto&& add) {
         const std::int32_t iterations = level.iterations;
         const std::int64_t products = level.products;
@@ -726,8 +759,23 @@ void AdhesivePixels::divide_edges(Level& level, double shortest) {
                  gained = now.energy - accepted.energy,
                  work = 0.5 * (accepted.force + now.force) * down,
                  most = negligible(accepted, now) + kWorkError * std::abs(work);
-    if (!level.converged || std::abs(work - gained) <= most) return;
-    if (std::abs(down) <= shortest || 0.5 * std::abs(down * (now.force - accepted.force)) <= most) {
+    // The energy tells the mean force, and so the force in the middle.
+    const double middle = 1.5 * gained / down - 0.25 * (accepted.force + now.force),
+                 unknown = 0.5 * std::abs(down * (now.force - accepted.force));
+    const bool whole = std::abs(down) > 0.75 * way, shortest = std::abs(down) <= kShortest * way,
+               loses = std::abs(work - gained) > most,
+               dips = down < 0 &&
+                      least_of_parabola(accepted.force, middle, now.force) < below(now.least_force);
+    // On the whole way a loss may be as large as the error of the rule by chance.
+    const bool smooth = !loses && (!whole || unknown <= most) && (!dips || shortest);
+    if (!level.converged) return;
+    if (smooth) {
+        now.lost += work - gained;
+        level.energy_lost = now.lost;
+        return;
+    }
+    const bool jump = loses && (std::abs(down) <= kShortestOfEdges * way || unknown <= most);
+    if (jump && (shortest || !may_pull_harder())) {
         now.lost += std::max(work - gained, 0.0);
         level.energy_lost = now.lost;
         level.jumps += count_jumps(accepted, now);
@@ -736,24 +784,29 @@ void AdhesivePixels::divide_edges(Level& level, double shortest) {
     const Past end = now;
     parts([&] { level = step(0.5 * (accepted.separation + Z)); });
     if (!level.converged) return;
-    const double better = (accepted.force + 4 * now.force + end.force) * down / 6;
-    if (std::abs(better - gained) <= most) {
+    const double better = (accepted.force + 4 * now.force + end.force) * down / 6,
+                 least = std::min(now.least_force, end.force);
+    if (std::abs(better - gained) <= most &&
+        !(least_of_parabola(accepted.force, now.force, end.force) < below(least))) {
         parts([&] { level = step(Z, &end); });
+        now.least_force = level.least_force = least;
+        now.lost += better - gained;
+        level.energy_lost = now.lost;
         return;
     }
-    divide_edges(level, shortest);
+    divide_edges(level, way);
     if (!level.converged) return;
     accepted = now;
     accepted.jumps = level.jumps;
     parts([&] { level = step(Z); });
-    divide_edges(level, shortest);
+    divide_edges(level, way);
 }
 
 Level AdhesivePixels::follow_edges(double Z) {
     Level level = step(Z);
     const Past before = accepted;
     try {
-        divide_edges(level, kShortestOfEdges * std::abs(Z - accepted.separation));
+        divide_edges(level, std::abs(Z - accepted.separation));
     } catch (...) {
         accepted = before;
         throw;
@@ -794,6 +847,9 @@ std::int32_t AdhesivePixels::count_jumps(const Past& from, const Past& to) const
 void AdhesivePixels::restore(const Past& past) {
     std::ranges::fill(share, 0.0);
     for (const auto k : indices(past.attracting)) share[at(past.attracting[k])] = past.share[k];
+    if (past.pressed.empty()) return;
+    std::ranges::fill(q, 0.0);
+    for (const auto k : indices(past.attracting)) q[at(past.attracting[k])] = past.pressed[k];
 }
 
 // Stores the pressures of the last level, the accepted one.

@@ -19,6 +19,7 @@ struct AdhesivePixels : CutMap {
         std::int32_t jumps = 0;                // on the way of the tip since the last level
         std::vector<std::int32_t> attracting;  // increasing
         std::vector<double> share;             // of the traction s0 on these points
+        std::vector<double> pressed;           // q on these points; empty: not known
         std::vector<double> gap;               // of the tracked points
     };
 
@@ -99,7 +100,8 @@ struct AdhesivePixels : CutMap {
     Part between(const Past& from, const Past& to, Level& effort);
     std::vector<Part> divide(Level& effort);
     Level follow_range(double Z);
-    void divide_edges(Level& level, double shortest);
+    bool may_pull_harder();
+    void divide_edges(Level& level, double way);
     Level follow_edges(double Z);
     Level solve(double Z, bool trial);
     std::optional<Past> tried;  // the state of the last trial since a level was accepted
