@@ -45,7 +45,7 @@ private:
     template <class Archive, class Self>
     static void exchange(Archive& a, Self& state) {
         a(state.q, state.share, state.p_before, state.margin, state.bulged, state.accepted.energy,
-          state.accepted.conjugate, state.accepted.pressed);
+          state.accepted.conjugate);
     }
     double attraction() const override { return state_.z0; }
     void accept(Level&) override {
@@ -96,7 +96,6 @@ private:
                 "the state of the contact cannot be reached again: the solver does not converge");
         state_.accepted.energy = state_.now.energy;
         state_.accepted.conjugate = state_.now.conjugate;
-        state_.accepted.pressed = state_.now.pressed;
         state_.keep();
     }
 

@@ -571,7 +571,6 @@ Level AdhesivePixels::step(double Z, const Past* start, double tolerance) {
     now.separation = Z;
     now.attracting.clear();
     now.share.clear();
-    now.pressed.clear();
     std::vector<Pixel> touching;
     std::vector<double> pressures;
     double twice = 0, cohesive = 0;
@@ -581,7 +580,6 @@ Level AdhesivePixels::step(double Z, const Past* start, double tolerance) {
         if (const std::size_t i = at(sorted[k]); share[i] > 0) {
             now.attracting.push_back(sorted[k]);
             now.share.push_back(share[i]);
-            if (edges) now.pressed.push_back(q[i]);
         }
     for (std::size_t k = 0; k < reach.size() && converged; ++k) {
         const std::size_t i = at(reach[k]);
@@ -848,9 +846,6 @@ std::int32_t AdhesivePixels::count_jumps(const Past& from, const Past& to) const
 void AdhesivePixels::restore(const Past& past) {
     std::ranges::fill(share, 0.0);
     for (const auto k : indices(past.attracting)) share[at(past.attracting[k])] = past.share[k];
-    if (past.pressed.empty()) return;
-    std::ranges::fill(q, 0.0);
-    for (const auto k : indices(past.attracting)) q[at(past.attracting[k])] = past.pressed[k];
 }
 
 // Stores the pressures of the last level, the accepted one.

@@ -19,7 +19,6 @@ struct AdhesivePixels : CutMap {
         std::int32_t jumps = 0;                // on the way of the tip since the last level
         std::vector<std::int32_t> attracting;  // increasing
         std::vector<double> share;             // of the traction s0 on these points
-        std::vector<double> pressed;           // without a range: q on these points
         std::vector<double> gap;               // of the tracked points
     };
 
