@@ -29,7 +29,8 @@ public:
     // requested[k] != 0, and at others that or 0.
     virtual void apply(const double* p, double* w, Accuracy accuracy,
                        const char* requested = nullptr) = 0;
-    // w = K p on another set, in inner accuracy; cheaper if it is that of the last call.
+    // w = K p for pressures on another set, in inner accuracy; cheaper if it is that of the last
+    // call.
     virtual void elsewhere(const double* p, const std::vector<Pixel>& pixels, double* w,
                            const char* requested = nullptr) = 0;
 

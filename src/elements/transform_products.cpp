@@ -34,18 +34,17 @@ public:
 
     // w = `factor` K p
     template <class Real>
-    void apply(const PlaneSet& from, const PlaneSet& to, const double* p, double factor,
-               double* w) {
+    void apply(const PlaneSet& set, const double* p, double factor, double* w) {
         double largest = 0;
-        for (const auto k : indices(from.pixels)) largest = std::max(largest, std::abs(p[k]));
+        for (const auto k : indices(set.pixels)) largest = std::max(largest, std::abs(p[k]));
         const double unit = largest > 0 ? largest : 1;  // for single precision
         of<Real>().apply(
             [&](int j, Real* row) {
                 std::fill_n(row, nx_, Real(0));
-                from.row(j, [&](std::size_t k, int i) { row[i] = Real(p[k] / unit); });
+                set.row(j, [&](std::size_t k, int i) { row[i] = Real(p[k] / unit); });
             },
             [&](int j, const Real* row) {
-                to.row(j, [&](std::size_t k, int i) { w[k] = unit * factor * double(row[i]); });
+                set.row(j, [&](std::size_t k, int i) { w[k] = unit * factor * double(row[i]); });
             });
     }
 
@@ -179,13 +178,11 @@ public:
 
     void set_pixels(const std::vector<Pixel>& pixels) override { set_ = arrange(pixels); }
     void apply(const double* p, double* w, Accuracy accuracy, const char*) override {
-        multiply(set_, set_, p, w, accuracy);
+        multiply(set_, p, w, accuracy);
     }
-    // Between two flats the pressures are those on the last set.
     void elsewhere(const double* p, const std::vector<Pixel>& pixels, double* w,
                    const char*) override {
-        const PlaneSet there = arrange(pixels);
-        multiply(flats_ ? set_ : there, there, p, w, Accuracy::inner);
+        multiply(arrange(pixels), p, w, Accuracy::inner);
     }
     PixelStencil inverse(double diagonal) const override {
         return inverse_stencil(aspect_, with_diagonal(share_, diagonal / unit_));
@@ -230,18 +227,17 @@ private:
             }));
     }
 
-    void multiply(const PlaneSet& from, const PlaneSet& to, const double* p, double* w,
-                  Accuracy accuracy) {
-        if (to.pixels.empty()) return;
+    void multiply(const PlaneSet& set, const double* p, double* w, Accuracy accuracy) {
+        if (set.pixels.empty()) return;
         ++count_;
-        const int padded = flats_ ? 0 : padded_size(to.width);
+        const int padded = flats_ ? 0 : padded_size(set.width);
         auto& plane = planes_[padded];
         if (!plane) plane = make_plane(padded);
         const double factor = flats_ ? unit_ : 1;
         if (accuracy == Accuracy::inner)
-            plane->apply<float>(from, to, p, factor, w);
+            plane->apply<float>(set, p, factor, w);
         else
-            plane->apply<double>(from, to, p, factor, w);
+            plane->apply<double>(set, p, factor, w);
     }
 
     bool flats_, along_x_, along_y_;

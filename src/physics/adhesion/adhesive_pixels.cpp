@@ -495,21 +495,28 @@ bool AdhesivePixels::join(double Z) {
     edge_products->apply(pull.data(), w.data(), PixelProducts::Accuracy::inner);
     double most = bulge * pixel * sum_of(q);
     for (const double u : w) most = std::max(most, -u);
-    std::vector<char> in(share.size(), 0);
-    for (const std::int32_t k : reach) in[at(k)] = 1;
-    std::vector<Pixel> others;
+    std::vector<char> outside(share.size(), 0);
+    for (const auto i : indices(outside)) outside[i] = flats || clearance[i] > Z - most;
+    for (const std::int32_t k : reach) outside[at(k)] = 0;
+    if (std::ranges::count(outside, 1) == 0) return false;
+    // Row by row, with those of the edges among them.
+    std::vector<double> all(share.size(), 0.0), pressures;
+    for (const auto k : indices(reach)) all[at(reach[k])] = p[k];
+    std::vector<char> requested;
+    std::vector<Pixel> pixels;
     for (const int j : indices(heights.ny))
         for (const int i : indices(heights.nx))
-            if (const std::size_t k = at(place({i, j}));
-                !in[k] && (flats || clearance[k] > Z - most))
-                others.push_back({i, j});
-    if (others.empty()) return false;
-    w.resize(others.size());
-    edge_products->elsewhere(p.data(), others, w.data());
+            if (const std::size_t k = at(place({i, j})); outside[k] || all[k] != 0) {
+                pixels.push_back({i, j});
+                pressures.push_back(all[k]);
+                requested.push_back(outside[k]);
+            }
+    w.resize(pixels.size());
+    edge_products->elsewhere(pressures.data(), pixels, w.data(), requested.data());
     bool any = false;
-    for (const auto k : indices(others)) {
-        const std::size_t i = at(place(others[k]));
-        if (!(w[k] - (clearance[i] - Z) < -kPenetration * z0)) continue;
+    for (const auto k : indices(pixels)) {
+        const std::size_t i = at(place(pixels[k]));
+        if (!outside[i] || !(w[k] - (clearance[i] - Z) < -kPenetration * z0)) continue;
         share[i] = 1;
         q[i] = s0;
         any = true;

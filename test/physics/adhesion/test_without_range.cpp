@@ -180,6 +180,24 @@ TEST(test_wavy_sphere) {
     }
 }
 
+// A sphere that just jumps into contact pulls with 8/9 of its pull-off force, F, and raises points
+// at the distance r by F/(pi E* r): a summit there touches, too, if it lies less deep.
+TEST(test_raised_summit) {
+    const Jkr truth{1e-4};
+    constexpr int n = 64, column = 58, row = 32;
+    const double r = (column - 0.5 * (n - 1) + 0.1) * 4 * truth.at_rest() / n,
+                 raised = 8.0 / 9 * truth.pull_off() / (pi * r);
+    for (const double depth : {0.5, 1.5}) {
+        HeightMap map = sphere(truth, n);
+        map.row(row)[column] = -depth * raised;
+        const auto contact = make_element_contact(map, flat_over(map), sharp(truth.w));
+        const Level level = contact->at_separation(-0.1 * raised);
+        CHECK(level.converged && level.force < 0);
+        const auto touches = std::ranges::count(level.pixels.index, row * n + column);
+        CHECK(touches == (depth < 1 ? 1 : 0));
+    }
+}
+
 TEST(test_error_of_the_smallest_force) {
     // That of N there, unless contacts outside the range of validity come apart later: on a finer
     // grid they may hold longer and pull harder.
