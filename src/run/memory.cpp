@@ -124,8 +124,8 @@ namespace {
 double of_elements(const Job& job) {
     const Case& settings = job.settings;
     const bool flats = job.indenter.period.finite();
-    const double per_wave = settings.elements.points_per_wave,
-                 points = points_of_elements(job, per_wave), number = sizeof(double);
+    const double per_wave = settings.elements.points_per_wave, number = sizeof(double);
+    const double points = points_of_elements(job, per_wave);
     // Between flats a plane of transforms and the gap, too; where only high points are read, modes
     // of waves that are `per_wave` points long.
     double surface = flats ? 28 : reads_high_points(settings) ? number / per_wave : number;

@@ -18,7 +18,8 @@ constexpr double kOfLayer = 0.5;
 // of a part.
 constexpr double kShortestOfEdges = 1.0 / 16, kWorkError = 0.01;
 // By how much the force may fall below the smallest one of the states that are computed, relative
-// to it, before a jump or where its course is smooth. Parts of the way are not made shorter than kShortest for that.
+// to it, before a jump or where its course is smooth. Parts of the way are not made shorter than
+// kShortest for that.
 constexpr double kLeastForceError = 0.01, kShortest = 1.0 / 1024;
 // Errors of the residual of a stiffness: of that which is returned, and for this fall of the force.
 constexpr double kStiffnessError = 1e-9, kFallError = 1e-3;
