@@ -169,13 +169,13 @@ struct LevelValues {
 
 // Boundary elements: pixels under pressure, row by row. Empty for asperities.
 struct LevelPixels {
-    int columns = 0;                    // columns of the map
-    double x0 = 0, y0 = 0;              // centre of the first pixel of the map [length]
-    double dx = 0, dy = 0;              // sides of a pixel [length]
-    std::vector<std::int32_t> index;    // row * columns + column, 0-based
+    int columns = 0;                  // columns of the map
+    double x0 = 0, y0 = 0;            // centre of the first pixel of the map [length]
+    double dx = 0, dy = 0;            // sides of a pixel [length]
+    std::vector<std::int32_t> index;  // row * columns + column, 0-based
     // index of the contact to which it belongs; empty: not known, as for loads that last
     std::vector<std::int32_t> contact;
-    std::vector<double> pressure;       // [force/length^2]
+    std::vector<double> pressure;  // [force/length^2]
     // Adhesion: pixels that are attracted without contact, row by row, and their negative pressure.
     std::vector<std::int32_t> cohesive;
     std::vector<double> attraction;  // [force/length^2]
