@@ -163,4 +163,21 @@ TEST(test_work) {
     CHECK(contact->energy() == 0 && contact->stiffness() == 0);
 }
 
+// On a ramp as many points as yield span the depth that a force as large again goes down, wherever
+// the ramp is.
+TEST(test_further_approach) {
+    const SolverOptions hard = options(2);
+    const double step = 0.25;
+    Level level;
+    level.plastic_contacts = 1;
+    level.pixels.pressure.assign(100, 1.0);
+    std::fill_n(level.pixels.pressure.begin(), 30, 2.0);
+    for (const double base : {0.0, 5.0}) {
+        const HeightMap ramp =
+            height_map(40, 5, 1, 1, [&](int i, int j) { return base + step * (i + 40 * j); });
+        CHECK_RELATIVE(kHardness.further_approach(level, ramp, {kE, kInfinity}, hard.physics),
+                       30 * step, 1e-12);
+    }
+}
+
 }  // namespace test_hardness_elements
