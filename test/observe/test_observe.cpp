@@ -2,9 +2,12 @@
 // realizations.
 #include "check.hpp"
 #include "observe/distributions.hpp"
+#include "observe/fields.hpp"
 #include "observe/map.hpp"
 #include "observe/record.hpp"
 #include "observe/regimes.hpp"
+#include "support/asperities.hpp"
+#include "support/height_maps.hpp"
 
 namespace test_observe {
 
@@ -78,6 +81,34 @@ TEST(test_tension) {
     CHECK_RELATIVE(fit.mean_pressure_moments.mean, 1 / pi, 1e-14);
     const ShownDistributions none = shown_distributions(bins, distributions_of(bins, Level{}, 0));
     CHECK(std::isnan(none.spot_area_moments.mean) && std::isnan(none.mean_pressure_pdf[0]));
+}
+
+// Flattened summits lower the points around them, on periodic surfaces also across the border: as
+// all points and their images tried one by one.
+TEST(test_lowered_summits) {
+    const int nx = 12, ny = 9;
+    const HeightMap map = height_map(
+        nx, ny, 0.5, 0.4, [](int i, int j) { return 1 + 0.3 * std::sin(5.0 * i + 3.0 * j); });
+    const std::vector<std::array<double, 2>> places{
+        {0.1, 1.7}, {5.4, 0.2}, {2.6, 3.1}, {5.3, 1.9}, {2.9, 1.3}};
+    const double radius = 1.2, depth = 0.45, z = 1.3;
+    for (const bool repeats : {false, true})
+        for (const auto& [x, y] : places) {
+            std::vector<double> got(nx * ny), expected(nx * ny);
+            const ResidualProfile lowered =
+                lowered_summits(map, repeats, asperities_at({{x, y, z, radius}}), {depth});
+            for (const auto k : indices(lowered.depth))
+                got[at(std::lround(lowered.y[k] / 0.4) * nx + std::lround(lowered.x[k] / 0.5))] +=
+                    lowered.depth[k];
+            for (const int k : indices(9 * nx * ny)) {
+                const int image = k / (nx * ny), i = k % nx, j = k / nx % ny;
+                const double dx = map.x(i + nx * (image % 3 - 1)) - x,
+                             dy = map.y(j + ny * (image / 3 - 1)) - y;
+                if ((repeats || image == 4) && dx * dx + dy * dy < 2 * radius * depth)
+                    expected[at(j * nx + i)] += std::max(0.0, map(i, j) - (z - depth));
+            }
+            CHECK(sum_of(expected) > 0 && got == expected);
+        }
 }
 
 }  // namespace test_observe
