@@ -275,11 +275,14 @@ TEST(pressures) {
     }
 }
 
-// The lay of a spectrum from a file turns with its direction.
+// The lay of a spectrum from a file turns with its direction. Without L the surface is as long as
+// the longest wave.
 TEST(lay_of_a_spectrum) {
     Case c = synthetic();
     c.surface.source = Source::spectrum;
     c.surface.file = write("psd.txt", "10 1\n40 0.01\n");
+    c.surface.L.reset();
+    CHECK_RELATIVE(spectrum_of(c).L, 2 * pi / 10, kRounding);
     c.surface.L = 1.0;
     c.surface.aspect = 4;
     c.surface.direction = 25;
