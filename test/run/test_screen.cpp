@@ -101,6 +101,47 @@ TEST(levels) {
         CHECK(seen.find(words) != std::string::npos);
 }
 
+// How asperities differ from elements, against the values of both in the file.
+TEST(comparisons) {
+    const Folder folder;
+    const std::string path = folder / "compared.nc";
+    for (const bool by_force : {false, true}) {
+        const std::string levels = by_force ? "levels=8,40" : "levels=1.5,0.5";
+        const Screen screen =
+            run(kSurface + "/ &solver model='asperities' / &compare " + levels +
+                    " / &indentation " + levels + (by_force ? " control='force' /" : " /"),
+                path);
+        const Reader file(path);
+        const auto error = [&](const char* name, std::size_t k) {
+            return 100 *
+                   (file.values(name)[k] / file.values("compare_" + std::string(name))[k] - 1);
+        };
+        std::size_t k = 0;
+        for (std::size_t here = 0;
+             (here = screen.text.find("; asp", here + 1)) != std::string::npos; ++k) {
+            double first = 0, sigma = 0, area = 0, contacts = 0;
+            const char* line = screen.text.c_str() + here;
+            if (by_force) {
+                CHECK(std::sscanf(line,
+                                  "; asperities at the same force Z0 %lf mm (%lf sigma), A %lf %%, "
+                                  "contacts %lf %%",
+                                  &first, &sigma, &area, &contacts) == 4);
+                const double higher =
+                    file.values("separation")[k] - file.values("compare_separation")[k];
+                CHECK_RELATIVE(first, higher, 5e-3);
+                CHECK_CLOSE(sigma, higher / file.values("sigma_reference")[0], 5.1e-4);
+            } else {
+                CHECK(std::sscanf(line, "; asperities N %lf %%, A %lf %%, contacts %lf %%", &first,
+                                  &area, &contacts) == 3);
+                CHECK_CLOSE(first, error("force", k), 5.1e-3);
+            }
+            CHECK_CLOSE(area, error("contact_area", k), 5.1e-3);
+            CHECK_CLOSE(contacts, error("contacts", k), 5.1e-2);
+        }
+        CHECK(k == 2);
+    }
+}
+
 // A duration as it is told, in seconds.
 double seconds_of(const std::string& told) {
     const std::map<std::string, double> units{{"ms", 1e-3}, {"s", 1}, {"min", 60}, {"h", 3600}};
