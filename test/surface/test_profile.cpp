@@ -143,6 +143,24 @@ TEST(abel_pair_of_a_self_affine_surface) {
         }
 }
 
+// One wave in the length is what a line takes, two are what a bow takes; waves beyond the cutoffs
+// are left out with them.
+TEST(range_of_a_profile_spectrum) {
+    const HeightMap profile = line_of(128, 0.5, [](double x) { return std::sin(3 * x * x); });
+    const double unit = 2 * pi / 64;
+    const auto range = [&](double cutoff_long, double cutoff_short, Detrend form, int from,
+                           int to) {
+        const ProfileSpectrum s = profile_spectrum(profile, cutoff_long, cutoff_short, form);
+        CHECK_RELATIVE(s.wavenumber.front(), from * unit, 1e-12);
+        CHECK_RELATIVE(s.middle.back() + 0.5 * (s.modes.back() - 1) * unit, to * unit, 1e-12);
+        CHECK(sum_of(s.modes) == to - from + 1);
+    };
+    range(0, 0, Detrend::plane, 2, 64);
+    range(0, 0, Detrend::sphere, 3, 64);
+    range(64 / 6.5, 64 / 40.5, Detrend::quadratic, 7, 40);
+    range(64 / 1.2, 0, Detrend::plane, 2, 64);
+}
+
 TEST(moments_of_profile_and_surface) {
     for (const double H : {0.3, 0.8}) {
         const SelfAffineFit s = surface(H, false);
