@@ -117,9 +117,15 @@ void bounds(const char* name, bool sharp) {
     }
     CHECK(holds);
     CHECK(s->lowest({-kInfinity, kInfinity, -kInfinity, kInfinity}) <= s->height(0.01, 0.02));
-    for (const Vec2& p : s->outline(0.004))
+    const std::vector<Vec2> outline = s->outline(0.004);
+    double turned = 0;  // around the tip, once
+    for (const auto k : indices(outline)) {
+        const Vec2 p = outline[k], next = outline[(k + 1) % outline.size()];
         CHECK(std::abs(s->height(p.x * (1 - 1e-9), p.y * (1 - 1e-9)) - 0.004) <
               (sharp ? 0.0041 : 1e-8));
+        turned += std::atan2(p.x * next.y - p.y * next.x, p.x * next.x + p.y * next.y);
+    }
+    CHECK_CLOSE(turned, outline.empty() ? 0 : 2 * pi, 1e-12);
 }
 
 TEST(all_indenter) {
