@@ -221,7 +221,8 @@ def _mark(page, results, found, values, at):
     level, so that the force may be larger."""
     axis, (_, texts, along, _) = page.axes[0], found
     x = np.array([_in_order(t[along])[1] for t in texts])
-    statuses = [r["status"].reshape(-1, r.steps)[:, k] for r, k in zip(results, at)]
+    # From the level of the smallest force on: contacts in doubt may come apart too early.
+    statuses = [r["status"].reshape(-1, r.steps)[:, k:] for r, k in zip(results, at)]
     doubt = np.array([np.nanmax(status) > 0 for status in statuses])
     stuck = np.array([np.nan_to_num(r.mean("contacts"))[-1] > 0 for r in results])
     for these, marker, text in (
@@ -230,16 +231,6 @@ def _mark(page, results, found, values, at):
     ):
         if these.any():
             axis.plot(x[these], values[these], marker, mfc="none", mec="k", ms=9, label=text)
-
-
-def _force_error(result, level):
-    """Expected error of the force at a level, as a force; where the force is prescribed, that of
-    the separation times the stiffness."""
-    relative = result.error("force")[level]
-    if relative > 0 or "separation_error_expected" not in result:
-        return relative * abs(result.mean("force")[level])
-    error = result["separation_error_expected"].reshape(-1, result.steps)[:, level]
-    return np.nan_to_num(error[0] * abs(result.mean("stiffness")[level]))
 
 
 def pulloff(results, options):
@@ -252,7 +243,9 @@ def pulloff(results, options):
     errors = np.array([float(r.standard_error(r["pull_off_force"])) for r in results])
     dimension = results[0].dimension("pull_off_force")
     at = [int(np.nanargmin(r.mean("force"))) for r in results]  # the level of the smallest force
-    expected = np.array([_force_error(r, k) for r, k in zip(results, at)])
+    name = "pull_off_force_error_expected"  # missing where none is stated
+    relative = [float(np.nan_to_num(r.mean(name))) if name in r else 0.0 for r in results]
+    expected = relative * np.abs(values)
     panels = [Panel("pull_off_force", values, errors, expected, dimension)]
     if all("energy_lost" in r for r in results):
         panels.append(_at_level(results, [r.steps - 1 for r in results], "energy_lost"))
