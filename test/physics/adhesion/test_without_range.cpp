@@ -170,8 +170,9 @@ TEST(test_wavy_sphere) {
     // First order in the pixel, of which 32 fit into the radius at zero force.
     CHECK_RELATIVE(level.energy_lost, truth.lost, 1.0 / 32);
     CHECK_RELATIVE(level.least_force, truth.pull_off, 0.6 / 32);
-    // In few levels, too: the smallest force, shortly before a jump between two of them, by 1 %, for
-    // which the way is divided, and what small jumps add; the loss by the error of its quadrature.
+    // In few levels, too: the smallest force, shortly before a jump between two of them, to the 1 %
+    // for which the way is divided and what small jumps add; the loss to the error of its
+    // quadrature.
     const Level many = loop(truth, smooth, depth, 64, 200);
     for (const int levels : {3, 4, 5, 7}) {
         const Level few = loop(truth, smooth, depth, 64, levels);
